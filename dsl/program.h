@@ -1,0 +1,385 @@
+// The checked program: what a `.rg` file and its imports mean, with every name resolved, every constant folded,
+// every loop unrolled and every technique instantiated. The one input of the planner and of the checker.
+//
+// Nothing here knows Vulkan. Extents stay symbolic (Expr), because they are chosen when the program runs.
+// Access order inside a pass is the order written; pass order inside a graph is program order.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dsl/ids.h"
+#include "dsl/source.h"
+
+namespace rg::dsl {
+
+using ExprId = Id<struct ExprTag>;
+using StructId = Id<struct StructTag>;
+using SamplerId = Id<struct SamplerTag>;
+using StateId = Id<struct StateTag>;
+using ExtentId = Id<struct ExtentTag>;
+using FeatureId = Id<struct FeatureTag>;
+using ConditionId = Id<struct ConditionTag>;
+using GraphId = Id<struct GraphTag>;
+using ResourceId = Id<struct ResourceTag>;  // indexes Graph::resources
+using PassId = Id<struct PassTag>;          // indexes Graph::passes
+using ParamsId = Id<struct ParamsTag>;      // indexes Graph::params
+
+// ---- values known when the program runs -------------------------------------------------------------------------
+
+// A flat expression over int64. Operands precede the node that uses them.
+enum class ExprOp : uint8_t {
+  constant,     // value
+  extent,       // value: 3 * ExtentId + axis (0 width, 1 height, 2 depth); at run time the chosen extent
+  add, sub, mul,
+  floor_div,    // rounds down, as mip sizes do
+  ceil_div,     // ceil(a / b)
+  min, max,
+  mip,          // max(a >> b, 1)
+};
+struct Expr {
+  ExprOp op = ExprOp::constant;
+  ExprId a, b;
+  int64_t value = 0;
+  friend bool operator==(const Expr&, const Expr&) = default;
+};
+
+// `extent view = runtime(1920, 1080) max(3840, 2160)`
+struct Extent {
+  std::string name;
+  int64_t initial[3] = {1, 1, 1};
+  int64_t maximum[3] = {1, 1, 1};
+  uint32_t axes = 2;
+  Span span;
+  friend bool operator==(const Extent&, const Extent&) = default;
+};
+
+// ---- types ------------------------------------------------------------------------------------------------------
+
+enum class Scalar : uint8_t { f32, i32, u32, boolean };
+struct Type {  // scalar, vector (columns 1), matrix, or struct; `count` 0 means not an array
+  Scalar scalar = Scalar::f32;
+  uint8_t rows = 1, columns = 1;
+  StructId record;  // valid: a struct, and the fields above are unused
+  uint32_t count = 0;
+  friend bool operator==(const Type&, const Type&) = default;
+};
+struct Field {
+  std::string name;
+  Type type;
+  uint32_t offset140 = 0, offset430 = 0;  // bytes
+  Span span;
+  friend bool operator==(const Field&, const Field&) = default;
+};
+struct Struct {
+  std::string name;
+  std::vector<Field> fields;
+  uint32_t size140 = 0, align140 = 0, size430 = 0, align430 = 0;  // bytes; size430 is also the array stride
+  Span span;
+  friend bool operator==(const Struct&, const Struct&) = default;
+};
+
+// ---- fixed-function state ---------------------------------------------------------------------------------------
+
+enum class Filter : uint8_t { nearest, linear };
+enum class AddressMode : uint8_t { repeat, mirror, clamp, border };
+enum class Compare : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+struct Sampler {
+  std::string name;
+  Filter filter = Filter::nearest, mip_filter = Filter::nearest;
+  AddressMode address = AddressMode::clamp;
+  std::optional<Compare> compare;
+  float max_anisotropy = 0;  // 0: off
+  Span span;
+  friend bool operator==(const Sampler&, const Sampler&) = default;
+};
+
+enum class BlendFactor : uint8_t { zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color, one_minus_dst_color };
+enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };
+struct Blend {  // of one colour attachment; disabled unless declared on it
+  bool enabled = false;
+  BlendOp op = BlendOp::add;
+  BlendFactor src = BlendFactor::one, dst = BlendFactor::zero;
+  BlendFactor src_alpha = BlendFactor::one, dst_alpha = BlendFactor::zero;
+  friend bool operator==(const Blend&, const Blend&) = default;
+};
+enum class Cull : uint8_t { none, front, back };
+enum class Topology : uint8_t { points, lines, triangles, triangle_strip };
+struct State {
+  std::string name;
+  Cull cull = Cull::back;
+  bool front_clockwise = false;
+  bool depth_test = false;
+  Compare depth_compare = Compare::greater_equal;
+  bool depth_write = true;  // only where the pass may write depth
+  float depth_bias_constant = 0, depth_bias_slope = 0;
+  Topology topology = Topology::triangles;
+  bool alpha_to_coverage = false;
+  Span span;
+  friend bool operator==(const State&, const State&) = default;
+};
+
+// ---- resources --------------------------------------------------------------------------------------------------
+
+enum class Format : uint8_t {
+  none,
+#define RG_FORMAT(name, ...) name,
+#include "dsl/format.def"
+#undef RG_FORMAT
+};
+const char* name(Format format);
+
+enum class ResourceKind : uint8_t { image, buffer };
+enum class Dimension : uint8_t { d1, d2, d3, cube };
+enum class Lifetime : uint8_t {
+  transient,   // contents end with the frame; memory may be shared
+  history,     // `history n`: n previous final versions stay readable as prev(1..n)
+  persistent,  // contents stay; `init` defines the first frame
+  imported,    // brought by the host each frame in state `before`, left in `after`
+  readback,    // buffer the host reads after the frame; one copy a frame in flight
+};
+enum class InitKind : uint8_t { none, clear };
+
+// Where an access happens, as a role. What it means to the GPU is the compiler's business.
+enum class Role : uint8_t {
+  sampled, storage, uniform, vertex, index, indirect,
+  color, depth, depth_readonly, stencil, input, resolve_src, resolve_dst,
+  copy_src, copy_dst, blit_src, blit_dst, clear_dst, fill_dst, update_dst,
+  host_read, host_write, present, undefined /* imported contents are worthless */,
+};
+enum class Mode : uint8_t { read, write, update, atomic };  // write defines all of its range; update keeps the rest
+
+enum Stage : uint32_t {  // programmable and fixed stages an access may name with `in`
+  stage_none = 0, stage_vertex = 1, stage_tess_control = 2, stage_tess_eval = 4, stage_geometry = 8, stage_fragment = 16,
+  stage_compute = 32, stage_transfer = 64, stage_host = 128,
+};
+
+struct BoundaryState {  // `ready as storage in compute`
+  Role role = Role::undefined;
+  uint32_t stages = 0;  // Stage bits; 0: the role's own
+  bool wrote = false;   // the state comes from a write that is not yet visible
+  friend bool operator==(const BoundaryState&, const BoundaryState&) = default;
+};
+
+// A conjunction of feature values; empty is always. `when fog` adds {fog, 1}, its `else` {fog, 0}.
+struct Guard {
+  struct Term {
+    FeatureId feature;
+    uint32_t value = 0;
+    bool negated = false;
+    friend bool operator==(const Term&, const Term&) = default;
+  };
+  std::vector<Term> terms;
+  friend bool operator==(const Guard&, const Guard&) = default;
+};
+
+struct ClearValue {  // floats or integers by the format; depth in f[0], stencil in u[1]
+  bool integer = false;
+  float f[4] = {0, 0, 0, 0};
+  uint32_t u[4] = {0, 0, 0, 0};
+  friend bool operator==(const ClearValue&, const ClearValue&) = default;
+};
+
+struct Resource {
+  std::string name;        // unique in the graph; loop instances are `name[2]`, interface members `scene.lights`
+  std::string module;      // `frame`, `lighting`
+  ResourceKind kind = ResourceKind::image;
+  Lifetime lifetime = Lifetime::transient;
+  // images
+  Dimension dimension = Dimension::d2;
+  Format format = Format::none;
+  ExprId width, height, depth;      // texels of mip 0; height/depth invalid means 1
+  uint32_t mips = 1;                // declared maximum; an instance has min(mips, full chain)
+  uint32_t layers = 1, samples = 1; // cubes count 6 a cube
+  // buffers
+  Type element;                     // `u32[n]`; raw buffers are u32
+  uint32_t stride = 0;              // bytes, std430
+  ExprId count;                     // elements
+  // lifetimes
+  uint32_t history = 0;
+  InitKind init = InitKind::none;
+  ClearValue init_value;
+  BoundaryState before, after;      // imported
+  bool is_surface = false;          // imported image the result is shown on
+  bool is_output = false;           // observable: its producer is never culled
+  bool no_alias = false;
+  Guard guard;
+  Span span;
+  friend bool operator==(const Resource&, const Resource&) = default;
+};
+
+constexpr uint32_t kAll = UINT32_MAX;
+struct Range {  // of one image or buffer; kAll counts reach to the end
+  uint32_t aspects = 0;  // 1 colour, 2 depth, 4 stencil; 0: those of the format
+  uint32_t mip = 0, mips = kAll, layer = 0, layers = kAll;
+  ExprId offset, size;   // buffer bytes; invalid: whole
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+// ---- passes -----------------------------------------------------------------------------------------------------
+
+struct Access {
+  ResourceId resource;
+  Range range;
+  uint32_t age = 0;        // prev(age) of a history resource
+  Mode mode = Mode::read;
+  Role role = Role::sampled;
+  uint32_t stages = 0;     // Stage bits declared with `in`; 0: from the shaders of the pass
+  SamplerId sampler;       // sampled through; invalid: texelFetch only
+  std::string name;        // what shaders and the generated API call it
+  std::optional<ClearValue> clear;  // cleared before use
+  Blend blend;             // color
+  bool covers = false;     // raster: declared to define every element
+  bool disjoint = false;   // writers declared to touch different elements
+  Span span;
+  friend bool operator==(const Access&, const Access&) = default;
+};
+
+enum class PassKind : uint8_t { raster, compute, transfer, host };
+enum class QueueKind : uint8_t { graphics, compute, transfer };
+struct Shader {
+  Stage stage = stage_compute;
+  std::string path;        // as written, relative to the folder of the module that names it
+  Span span;
+  friend bool operator==(const Shader&, const Shader&) = default;
+};
+
+enum class DrawKind : uint8_t { none, fullscreen, direct, indirect, indirect_count, host };
+struct Draw {
+  DrawKind kind = DrawKind::none;
+  ExprId vertices, instances;   // direct
+  uint32_t arguments = kAll, counts = kAll;  // indices into Pass::accesses, role indirect
+  uint32_t max_draws = 1, stride = 16;       // indirect: VkDrawIndirectCommand; indexed: 20
+  bool indexed = false;
+  StructId per_draw;            // push constants of each draw
+  std::vector<StructId> vertex; // one binding each, in order; locations run on through the fields
+  friend bool operator==(const Draw&, const Draw&) = default;
+};
+
+enum class DispatchKind : uint8_t { none, over, groups, indirect, host };
+struct Dispatch {
+  DispatchKind kind = DispatchKind::none;
+  ExprId size[3];                 // `over`: invocations, divided by the group size rounding up; `groups`: groups
+  uint32_t arguments = kAll;      // index into Pass::accesses
+  uint32_t group[3] = {1, 1, 1};  // `group 8 8 1`
+  friend bool operator==(const Dispatch&, const Dispatch&) = default;
+};
+
+enum class TransferKind : uint8_t { copy, blit, clear, fill, update, resolve, host };
+struct Transfer {  // accesses are indices into Pass::accesses
+  TransferKind kind = TransferKind::copy;
+  uint32_t src = kAll, dst = kAll;
+  Filter filter = Filter::nearest;
+  ClearValue value;               // clear; fill in u[0]
+  std::string data;               // update: what the generated API calls the host's bytes
+  friend bool operator==(const Transfer&, const Transfer&) = default;
+};
+
+// The pass runs only while mip < the image's mips at the current extent (see Resource::mips).
+struct MipLimit {
+  ResourceId image;
+  uint32_t mip = 0;
+  friend bool operator==(const MipLimit&, const MipLimit&) = default;
+};
+
+struct Params {  // a uniform block that host code fills, graph-wide or of one pass
+  std::string name;
+  StructId type;
+  PassId pass;  // invalid: a parameter of the graph
+  Span span;
+  friend bool operator==(const Params&, const Params&) = default;
+};
+
+struct Pass {
+  std::string name;        // unique in the graph; loop instances are `bloom_down[3]`
+  std::string module;
+  PassKind kind = PassKind::compute;
+  QueueKind queue = QueueKind::graphics;
+  bool queue_may = false;  // `may`: permission to move, not an order
+  std::vector<Shader> shaders;
+  std::vector<Access> accesses;
+  std::vector<ParamsId> params;
+  StateId state;           // raster; invalid: defaults
+  Draw draw;
+  Dispatch dispatch;
+  std::vector<Transfer> transfers;
+  std::string bind;        // `bind engine.materials`: a set the engine owns, set 0 or 2 by declaration
+  std::vector<PassId> after;
+  bool keep = false;       // never culled
+  Guard guard;
+  std::vector<ConditionId> conditions;  // latched host conditions, all must hold
+  std::vector<MipLimit> mip_limits;
+  Span span;               // of the pass name
+  friend bool operator==(const Pass&, const Pass&) = default;
+};
+
+struct Assertion {  // `assert memory(1920x1080) <= 170 MiB`
+  bool is_error = true;
+  std::string fact;                       // memory, barriers, submits, overlaps, order, variants
+  std::vector<std::string> arguments;     // pass or resource names
+  std::optional<int64_t> extent[3];
+  std::string comparison;                 // <= < == > >=
+  double value = 0;
+  std::string text;                       // as written
+  Span span;
+  friend bool operator==(const Assertion&, const Assertion&) = default;
+};
+
+struct EngineSet {  // `set materials 2 { texture2D[16] albedo  sampler smooth }`: descriptors the engine owns
+  std::string name;
+  uint32_t set = 0;
+  std::string glsl;        // declarations, as written between the braces
+  Span span;
+  friend bool operator==(const EngineSet&, const EngineSet&) = default;
+};
+
+struct Graph {
+  std::string name;
+  Table<ResourceId, Resource> resources;
+  Table<PassId, Pass> passes;
+  Table<ParamsId, Params> params;
+  std::vector<Assertion> assertions;
+  Span span;
+  friend bool operator==(const Graph&, const Graph&) = default;
+};
+
+// ---- the whole --------------------------------------------------------------------------------------------------
+
+struct Feature {
+  std::string name;
+  std::vector<std::string> values;  // bool: {"off", "on"}
+  uint32_t initial = 0;
+  Span span;
+  friend bool operator==(const Feature&, const Feature&) = default;
+};
+struct Condition {
+  std::string name;
+  Span span;
+  friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+struct Program {
+  std::string module;  // of the root file
+  Table<ExprId, Expr> exprs;
+  Table<ExtentId, Extent> extents;
+  Table<StructId, Struct> structs;
+  Table<SamplerId, Sampler> samplers;
+  Table<StateId, State> states;
+  Table<FeatureId, Feature> features;
+  Table<ConditionId, Condition> conditions;
+  Table<Id<struct EngineSetTag>, EngineSet> engine_sets;
+  struct Constant { std::string name; int64_t value = 0; friend bool operator==(const Constant&, const Constant&) = default; };
+  std::vector<Constant> constants;  // public integer constants, also given to shaders and C++
+  Table<GraphId, Graph> graphs;
+  friend bool operator==(const Program&, const Program&) = default;
+};
+
+// Evaluates `id` for the extents given as 3 values each, in the order of Program::extents. O(nodes below id).
+int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& extent_values);
+// The extents' initial (or maximal) values in the form evaluate() takes.
+std::vector<int64_t> initial_extents(const Program& program);
+std::vector<int64_t> maximum_extents(const Program& program);
+
+}  // namespace rg::dsl
