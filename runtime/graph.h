@@ -1,0 +1,112 @@
+// A graph on a device: executes a plan frame after frame. The plan is const and shared; the instance owns heap, images, buffers,
+// views, samplers, pipelines, descriptor sets, the parameter ring, command buffers and the timeline.
+//
+// Threading: one thread an instance at a time; several instances of one plan or device are independent.
+// Cost: create and resize allocate; execute walks tables and neither allocates, hashes nor compares strings.
+// Generated code wraps this in a typed API; use it directly only for tools.
+#pragma once
+
+#include <vulkan/vulkan_core.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "runtime/device.h"
+#include "runtime/plan.h"
+#include "runtime/result.h"
+
+namespace rg {
+
+// What a callback needs to build its own pipelines and to record. Valid while the instance lives and is not resized.
+struct PassInfo {
+  std::string_view name;
+  std::span<const VkFormat> color_formats;
+  VkFormat depth_format = VK_FORMAT_UNDEFINED, stencil_format = VK_FORMAT_UNDEFINED;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  uint32_t view_mask = 0;
+  VkExtent2D extent = {1, 1};                       // of the rendering, or of the dispatch
+  VkPipelineLayout layout = VK_NULL_HANDLE;         // set 0 engine, 1 pass, push constants as declared
+  VkPipeline pipeline = VK_NULL_HANDLE;             // the generated one, already bound; null where the pass names no shader
+  VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;  // of set 1
+  // The same attachments as a classic render pass, subpass 0, where the device was created to validate; null otherwise.
+  VkRenderPass render_pass = VK_NULL_HANDLE;
+};
+
+// Passed to a callback while its pass is recorded; barriers, rendering scope, pipeline and set 1 are in place.
+struct Recording {
+  const DeviceFunctions& vk;
+  VkCommandBuffer commands;
+  const PassInfo& pass;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+};
+using RecordFunction = void (*)(void* user, Recording& recording);
+
+struct ImportedImage { VkImage image = VK_NULL_HANDLE; VkImageView view = VK_NULL_HANDLE; };  // view: all mips and layers, the declared dimension
+struct ImportedBuffer { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
+struct Import { ImportedImage image; ImportedBuffer buffer; };
+
+struct FrameInputs {
+  std::span<const Import> imports;                        // by Resource::import_slot
+  std::span<const std::span<const std::byte>> params;     // by index of Plan::params, exactly `bytes` each
+  RecordFunction const* callbacks = nullptr;              // by Pass::host_slot
+  void* user = nullptr;                                   // given to every callback
+  uint64_t conditions = 0;                                // bits of Plan::conditions
+  std::span<const std::span<const std::byte>> updates;    // by Transfer::update_slot
+  std::span<const VkDescriptorSet> engine_sets;           // by index of Plan::engine_sets
+};
+
+struct GraphOptions {
+  uint32_t frames_in_flight = 2;          // 1 to 4
+  std::span<const int64_t> extents;       // 3 values an extent; empty: the plan's initial ones
+  std::span<const VkDescriptorSetLayout> engine_set_layouts;  // by index of Plan::engine_sets
+  bool aliasing = true;
+  bool poison = false;                    // fills acquired transients with a pattern
+  bool debug_readback = false;            // adds transfer usage so that dump() works
+  bool submit_per_pass = false;           // times every pass in its own submit by the wall clock: for drivers whose timestamps do not separate passes
+};
+
+struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0; };
+struct PassTime { std::string_view pass; double ms = 0; };
+struct PlacedResource { std::string_view name; uint64_t offset = 0, bytes = 0; };
+
+struct Dump {  // contents of one resource after one pass, tightly packed, mip 0, all layers or slices
+  Format format = Format::undefined;
+  uint32_t width = 1, height = 1, depth_or_layers = 1, bytes_per_texel = 1;
+  std::vector<std::byte> bytes;
+};
+
+class GraphInstance {
+ public:
+  static Result<GraphInstance> create(Device& device, const Plan& plan, const GraphOptions& options);
+  GraphInstance(GraphInstance&&) noexcept;
+  GraphInstance& operator=(GraphInstance&&) noexcept;
+  ~GraphInstance();  // waits for its own frames
+
+  // Re-places and recreates what depends on extents; earlier frames go on undisturbed. On failure the old state stays.
+  Status resize(std::span<const int64_t> extents);
+  // Records and submits one frame. Waits only for the frame `frames_in_flight` ago.
+  Status execute(const FrameInputs& inputs);
+  Status wait_idle();
+
+  const PassInfo& pass_info(Index pass) const;
+  MemoryReport memory() const;
+  std::vector<PlacedResource> placements() const;
+  // Of the last finished frame: GPU timestamps, or wall-clock times with submit_per_pass.
+  std::vector<PassTime> pass_times();
+  // Contents of a `readback` buffer of the last finished frame (waits for it). Valid until the next execute.
+  Result<std::span<const std::byte>> readback(Index resource);
+  // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump.
+  Status request_dump(Index pass, Index resource, uint32_t mip = 0);
+  Result<Dump> take_dump();
+  uint64_t frame() const;  // frames executed
+
+ private:
+  struct State;
+  explicit GraphInstance(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rg
