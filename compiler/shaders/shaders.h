@@ -31,8 +31,11 @@ struct ShaderBundle {
   std::vector<std::string> read_files;   // for the depfile
 };
 
-// Reports undeclared, unused and contradicting accesses at the declaration and at the shader line.
-ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph, const ReadFile& read, dsl::Diagnostics& diagnostics);
+// Compiles every shader of `graph` and compares it with its pass. Undeclared, unused and contradicting accesses are reported at the
+// declaration and at the shader line; the shader texts a diagnostic points into are added to `files`.
+// `read` is called from one thread at a time. Same input, same bundle. After an error the bundle must not be used.
+ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph, const ReadFile& read, dsl::SourceFiles& files,
+                             dsl::Diagnostics& diagnostics);
 
 // The program with every Access::stages of `graph` filled from the shaders.
 dsl::Program resolve_stages(dsl::Program program, dsl::GraphId graph, const ShaderBundle& bundle);
