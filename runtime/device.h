@@ -31,12 +31,24 @@ struct ExternalDevice {
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
 };
 
+// What a null device counts and how it misbehaves.
+struct NullCounters {
+  uint64_t fallible_calls = 0;  // calls that return a VkResult, failed ones included
+  uint64_t live_handles = 0;    // created and not yet destroyed, without the device itself
+};
+struct NullOptions {
+  uint64_t fail_at = 0;                                     // this fallible call and no other fails; counted from 1, 0: none
+  VkResult failure = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  NullCounters* counters = nullptr;                         // outlives the device
+};
+
 class Device {
  public:
   static Result<Device> create(const DeviceOptions& options);
   static Result<Device> adopt(const ExternalDevice& external);
   // Records every call as one line of text into `log`; nothing runs. Handles are numbered in order of creation.
-  static Device null(std::string* log);
+  // `log` may be null. Semaphores are signalled at submit, mapped memory is real and zero.
+  static Device null(std::string* log, const NullOptions& options = {});
   Device(Device&&) noexcept;
   Device& operator=(Device&&) noexcept;
   ~Device();

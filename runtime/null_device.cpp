@@ -1,0 +1,301 @@
+// A device that only writes down what is asked of it. Every dispatchable handle points at something that knows the NullDevice, so
+// that plain Vulkan function pointers need no global state.
+#include <cstring>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "runtime/device_state.h"
+#include "runtime/formats.h"
+#include "runtime/null_text.h"
+
+namespace rg {
+
+struct NullCommands {  // behind a VkCommandBuffer
+  NullDevice* owner = nullptr;
+  uint64_t number = 0;
+  VkCommandPool pool = VK_NULL_HANDLE;
+};
+
+struct NullObject {
+  uint64_t bytes = 0;
+  uint32_t alignment = 1;
+};
+
+struct NullDevice {
+  std::string* log = nullptr;
+  NullOptions options;
+  NullCounters own_counters;
+  NullCounters* counters = nullptr;
+  std::map<const char*, uint64_t> next;  // by handle name, whose addresses are unique and whose order never shows
+  std::map<VkImage, NullObject> images;
+  std::map<VkBuffer, NullObject> buffers;
+  std::map<VkDeviceMemory, uint64_t> memory_bytes;
+  std::map<VkDeviceMemory, std::vector<std::byte>> mapped;
+  std::vector<uint64_t> semaphores;  // counter by number
+  std::vector<std::unique_ptr<NullCommands>> commands;
+  std::map<VkDescriptorPool, uint64_t> sets;
+
+  bool fails() { return ++counters->fallible_calls == options.fail_at; }
+};
+
+void NullDeviceDeleter::operator()(NullDevice* device) const { delete device; }
+
+namespace {
+
+NullDevice& owner(VkDevice device) { return *reinterpret_cast<NullDevice*>(device); }
+NullDevice& owner(VkQueue queue) { return *reinterpret_cast<NullDevice*>(queue); }
+NullDevice& owner(VkCommandBuffer commands) { return *reinterpret_cast<NullCommands*>(commands)->owner; }
+
+template <class Handle> Handle new_handle(NullDevice& null) {
+  return reinterpret_cast<Handle>(static_cast<uintptr_t>(++null.next[kHandleName<Handle>]));
+}
+
+void first_argument(NullLine& line, VkCommandBuffer commands) {
+  line.text(" commands"), line.number(reinterpret_cast<NullCommands*>(commands)->number);
+}
+template <class Handle> void first_argument(NullLine&, Handle) {}
+
+template <class First, class... Rest>
+void begin_line(NullLine& line, const char* name, First first, Rest... rest) {
+  line.text(name);
+  first_argument(line, first);
+  (print_argument(line, rest), ...);
+}
+
+// One function of the table: what kind it is follows from its type.
+template <class Tag, class Function> struct Null;
+
+template <class Tag, class Result, class First, class... Rest>
+struct Null<Tag, Result (*)(First, Rest...)> {
+  static Result call(First first, Rest... rest) {
+    NullDevice& null = owner(first);
+    NullLine line(null.log);
+    begin_line(line, Tag::name, first, rest...);
+    if constexpr (std::is_same_v<Result, VkResult>) {
+      const bool fails = null.fails();
+      line.text(fails ? " -> failed\n" : "\n");
+      return fails ? null.options.failure : VK_SUCCESS;
+    } else {
+      line.text("\n");
+      if constexpr (!std::is_void_v<Result>) return Result{};
+    }
+  }
+};
+
+// vkCreateX(device, info, allocator, handle) and vkAllocateMemory.
+template <class Tag, class Info, class Handle>
+struct Null<Tag, VkResult (*)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*)> {
+  static VkResult call(VkDevice device, const Info* info, const VkAllocationCallbacks*, Handle* handle) {
+    NullDevice& null = owner(device);
+    NullLine line(null.log);
+    begin_line(line, Tag::name, device, info);
+    if (null.fails()) {
+      line.text(" -> failed\n");
+      return null.options.failure;
+    }
+    *handle = new_handle<Handle>(null);
+    ++null.counters->live_handles;
+    line.text(" -> "), line.handle(*handle), line.text("\n");
+    return VK_SUCCESS;
+  }
+};
+
+// vkDestroyX(device, handle, allocator) and vkFreeMemory.
+template <class Tag, class Handle>
+struct Null<Tag, void (*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
+  static void call(VkDevice device, Handle handle, const VkAllocationCallbacks*) {
+    NullDevice& null = owner(device);
+    NullLine line(null.log);
+    begin_line(line, Tag::name, device, handle);
+    line.text("\n");
+    if (handle != VK_NULL_HANDLE) --null.counters->live_handles;
+  }
+};
+
+template <class Tag, class Info>
+struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, const VkAllocationCallbacks*, VkPipeline*)> {
+  static VkResult call(VkDevice device, VkPipelineCache, uint32_t count, const Info*, const VkAllocationCallbacks*, VkPipeline* pipelines) {
+    NullDevice& null = owner(device);
+    NullLine line(null.log);
+    begin_line(line, Tag::name, device, count);
+    const bool fails = null.fails();
+    for (uint32_t i = 0; i < count; ++i) pipelines[i] = fails ? VkPipeline(VK_NULL_HANDLE) : new_handle<VkPipeline>(null);
+    if (!fails) null.counters->live_handles += count;
+    line.text(" -> "), fails ? line.text("failed") : line.handle(pipelines[0]), line.text("\n");
+    return fails ? null.options.failure : VK_SUCCESS;
+  }
+};
+
+#define RG_TAG(name_) \
+  struct Tag##name_ { static constexpr const char* name = "vk" #name_; };
+#define RG_DEVICE RG_TAG
+#define RG_DEVICE_OPTIONAL RG_TAG
+#include "runtime/functions.def"
+#undef RG_TAG
+
+constexpr VkDeviceSize kImageAlignment = 65536, kBufferAlignment = 256;
+
+uint64_t image_bytes(const VkImageCreateInfo& info) {
+  const FormatInfo format = format_info(info.format);
+  uint64_t bytes = 0;
+  for (uint32_t mip = 0; mip < info.mipLevels; ++mip) {
+    const uint64_t width = std::max(info.extent.width >> mip, 1u), height = std::max(info.extent.height >> mip, 1u);
+    const uint64_t blocks = (width + format.block_width - 1) / format.block_width * ((height + format.block_height - 1) / format.block_height);
+    bytes += blocks * std::max(info.extent.depth >> mip, 1u) * format.block_bytes;
+  }
+  return bytes * info.arrayLayers * info.samples;
+}
+
+VkMemoryRequirements requirements(const NullObject& object) {
+  const uint64_t alignment = object.alignment;
+  return {(object.bytes + alignment - 1) / alignment * alignment, alignment, 0b11};
+}
+
+VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks* allocator, VkImage* image) {
+  const VkResult result = Null<TagCreateImage, PFN_vkCreateImage>::call(device, info, allocator, image);
+  if (result == VK_SUCCESS) owner(device).images[*image] = {image_bytes(*info), kImageAlignment};
+  return result;
+}
+
+VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
+  const VkResult result = Null<TagCreateBuffer, PFN_vkCreateBuffer>::call(device, info, allocator, buffer);
+  if (result == VK_SUCCESS) owner(device).buffers[*buffer] = {info->size, kBufferAlignment};
+  return result;
+}
+
+void VKAPI_CALL image_requirements(VkDevice device, VkImage image, VkMemoryRequirements* out) { *out = requirements(owner(device).images[image]); }
+void VKAPI_CALL buffer_requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* out) { *out = requirements(owner(device).buffers[buffer]); }
+
+VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+  const VkResult result = Null<TagAllocateMemory, PFN_vkAllocateMemory>::call(device, info, allocator, memory);
+  if (result == VK_SUCCESS) owner(device).memory_bytes[*memory] = info->allocationSize;
+  return result;
+}
+
+VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory, VkDeviceSize offset, VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
+  const VkResult result = Null<TagMapMemory, PFN_vkMapMemory>::call(device, memory, offset, size, flags, data);
+  if (result != VK_SUCCESS) return result;
+  NullDevice& null = owner(device);
+  null.mapped[memory].resize(null.memory_bytes[memory]);
+  *data = null.mapped[memory].data() + offset;
+  return VK_SUCCESS;
+}
+
+VkResult VKAPI_CALL create_semaphore(VkDevice device, const VkSemaphoreCreateInfo* info, const VkAllocationCallbacks* allocator, VkSemaphore* semaphore) {
+  const VkResult result = Null<TagCreateSemaphore, PFN_vkCreateSemaphore>::call(device, info, allocator, semaphore);
+  if (result == VK_SUCCESS) owner(device).semaphores.resize(reinterpret_cast<uintptr_t>(*semaphore) + 1);
+  return result;
+}
+
+VkResult VKAPI_CALL semaphore_value(VkDevice device, VkSemaphore semaphore, uint64_t* value) {
+  *value = owner(device).semaphores[reinterpret_cast<uintptr_t>(semaphore)];
+  return owner(device).fails() ? owner(device).options.failure : VK_SUCCESS;
+}
+
+VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo2* infos, VkFence) {
+  NullDevice& null = owner(queue);
+  const bool fails = null.fails();
+  for (uint32_t i = 0; i < count; ++i) {
+    NullLine line(null.log);
+    begin_line(line, TagQueueSubmit2::name, queue, &infos[i]);
+    line.text(fails ? " -> failed\n" : "\n");
+    for (uint32_t s = 0; !fails && s < infos[i].signalSemaphoreInfoCount; ++s)
+      null.semaphores[reinterpret_cast<uintptr_t>(infos[i].pSignalSemaphoreInfos[s].semaphore)] = infos[i].pSignalSemaphoreInfos[s].value;
+  }
+  return fails ? null.options.failure : VK_SUCCESS;
+}
+
+VkResult VKAPI_CALL allocate_commands(VkDevice device, const VkCommandBufferAllocateInfo* info, VkCommandBuffer* commands) {
+  NullDevice& null = owner(device);
+  const VkResult result = Null<TagAllocateCommandBuffers, PFN_vkAllocateCommandBuffers>::call(device, info, commands);
+  if (result != VK_SUCCESS) return result;
+  for (uint32_t i = 0; i < info->commandBufferCount; ++i) {
+    null.commands.push_back(std::make_unique<NullCommands>(NullCommands{&null, null.commands.size() + 1, info->commandPool}));
+    commands[i] = reinterpret_cast<VkCommandBuffer>(null.commands.back().get());
+  }
+  return VK_SUCCESS;
+}
+
+VkResult VKAPI_CALL allocate_sets(VkDevice device, const VkDescriptorSetAllocateInfo* info, VkDescriptorSet* sets) {
+  const VkResult result = Null<TagAllocateDescriptorSets, PFN_vkAllocateDescriptorSets>::call(device, info, sets);
+  if (result != VK_SUCCESS) return result;
+  for (uint32_t i = 0; i < info->descriptorSetCount; ++i) sets[i] = new_handle<VkDescriptorSet>(owner(device));
+  return VK_SUCCESS;
+}
+
+void VKAPI_CALL update_sets(VkDevice device, uint32_t count, const VkWriteDescriptorSet* writes, uint32_t, const VkCopyDescriptorSet*) {
+  for (uint32_t i = 0; i < count; ++i) {
+    NullLine line(owner(device).log);
+    begin_line(line, TagUpdateDescriptorSets::name, device, &writes[i]);
+    line.text("\n");
+  }
+}
+
+// A clock that ticks a microsecond a query, so that a pass takes 0.001 ms.
+VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool, uint32_t first, uint32_t count, size_t, void* data, VkDeviceSize stride, VkQueryResultFlags) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const uint64_t value = 1000ull * (first + i);
+    std::memcpy(static_cast<std::byte*>(data) + i * stride, &value, sizeof value);
+  }
+  return owner(device).fails() ? owner(device).options.failure : VK_SUCCESS;
+}
+
+void VKAPI_CALL format_properties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) { *out = {~0u, ~0u, ~0u}; }
+
+void fill_functions(DeviceFunctions& vk) {
+#define RG_DEVICE(name) vk.name = Null<Tag##name, PFN_vk##name>::call;
+#define RG_DEVICE_OPTIONAL RG_DEVICE
+#include "runtime/functions.def"
+  vk.CreateImage = create_image;
+  vk.CreateBuffer = create_buffer;
+  vk.GetImageMemoryRequirements = image_requirements;
+  vk.GetBufferMemoryRequirements = buffer_requirements;
+  vk.AllocateMemory = allocate_memory;
+  vk.MapMemory = map_memory;
+  vk.CreateSemaphore = create_semaphore;
+  vk.GetSemaphoreCounterValue = semaphore_value;
+  vk.QueueSubmit2 = submit;
+  vk.AllocateCommandBuffers = allocate_commands;
+  vk.AllocateDescriptorSets = allocate_sets;
+  vk.UpdateDescriptorSets = update_sets;
+  vk.GetQueryPoolResults = query_results;
+  vk.GetPhysicalDeviceFormatProperties = format_properties;
+}
+
+void fill_description(Device::State& state) {
+  state.name = "null";
+  state.timestamp_bits = 64;
+  state.limits.timestampPeriod = 1;
+  state.limits.minUniformBufferOffsetAlignment = 256;
+  state.limits.minStorageBufferOffsetAlignment = 256;
+  state.limits.nonCoherentAtomSize = 64;
+  state.limits.maxPushConstantsSize = 128;
+  state.limits.maxSamplerAnisotropy = 16;
+  state.limits.maxUniformBufferRange = 65536;
+  state.memory.memoryTypeCount = 2;
+  state.memory.memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  state.memory.memoryTypes[1] = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 0};
+  state.memory.memoryHeapCount = 1;
+  state.memory.memoryHeaps[0] = {1ull << 36, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
+}
+
+}  // namespace
+
+Device Device::null(std::string* log, const NullOptions& options) {
+  auto state = std::make_unique<State>();
+  NullDevice* null = new NullDevice;
+  state->null.reset(null);
+  null->log = log;
+  null->options = options;
+  null->counters = options.counters != nullptr ? options.counters : &null->own_counters;
+  state->device = reinterpret_cast<VkDevice>(null);
+  state->queue = reinterpret_cast<VkQueue>(null);
+  state->physical = reinterpret_cast<VkPhysicalDevice>(null);
+  state->instance = reinterpret_cast<VkInstance>(null);
+  fill_functions(state->vk);
+  fill_description(*state);
+  return Device(std::move(state));
+}
+
+}  // namespace rg

@@ -1,0 +1,264 @@
+// Instance, physical device and device of the runtime's own, headless. libvulkan is opened at run time: a program that never
+// creates a device needs no Vulkan.
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <cstring>
+
+#include "runtime/device_state.h"
+#include "runtime/errors.h"
+#include "runtime/features.h"
+
+namespace rg {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kLoadOpNone = "VK_EXT_load_store_op_none";
+
+Result<PFN_vkGetInstanceProcAddr> open_loader(Device::State& state) {
+  // RTLD_NODELETE: drivers leave threads and exit handlers behind.
+  state.library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+  if (state.library == nullptr) return Error{ErrorCode::unsupported, "no Vulkan loader: libvulkan.so.1 was not found; install the package `libvulkan1`"};
+  auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(state.library, "vkGetInstanceProcAddr"));
+  const char* missing = get == nullptr ? "vkGetInstanceProcAddr" : load_global_functions(state.vk, get);
+  if (missing != nullptr) return Error{ErrorCode::unsupported, std::string("the Vulkan loader lacks ") + missing};
+  return get;
+}
+
+bool has_layer(const DeviceFunctions& vk, const char* name) {
+  uint32_t count = 0;
+  vk.EnumerateInstanceLayerProperties(&count, nullptr);
+  std::vector<VkLayerProperties> layers(count);
+  vk.EnumerateInstanceLayerProperties(&count, layers.data());
+  for (const VkLayerProperties& layer : layers)
+    if (std::strcmp(layer.layerName, name) == 0) return true;
+  return false;
+}
+
+bool has_instance_extension(const DeviceFunctions& vk, const char* layer, const char* name) {
+  uint32_t count = 0;
+  vk.EnumerateInstanceExtensionProperties(layer, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vk.EnumerateInstanceExtensionProperties(layer, &count, extensions.data());
+  for (const VkExtensionProperties& extension : extensions)
+    if (std::strcmp(extension.extensionName, name) == 0) return true;
+  return false;
+}
+
+bool has_device_extension(const DeviceFunctions& vk, VkPhysicalDevice physical, const char* name) {
+  uint32_t count = 0;
+  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  for (const VkExtensionProperties& extension : extensions)
+    if (std::strcmp(extension.extensionName, name) == 0) return true;
+  return false;
+}
+
+VkBool32 VKAPI_CALL receive_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity, VkDebugUtilsMessageTypeFlagsEXT,
+                                    const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+  auto& state = *static_cast<Device::State*>(user);
+  const std::string_view text = data->pMessage == nullptr ? "" : data->pMessage;
+  if (text.find("for optimal performance") != std::string_view::npos) return VK_FALSE;
+  ++state.messages;
+  if (state.on_message) state.on_message((severity & VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT) != 0, text);
+  return VK_FALSE;
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messenger_info(Device::State& state) {
+  VkDebugUtilsMessengerCreateInfoEXT info{};
+  info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+  info.pfnUserCallback = receive_message;
+  info.pUserData = &state;
+  return info;
+}
+
+// Hazards between submits are off by default in the layer and can only be switched on from outside the API.
+void ask_for_submit_time_checks() {
+  setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
+}
+
+Status check_loader_version(const DeviceFunctions& vk) {
+  uint32_t version = 0;
+  vk.EnumerateInstanceVersion(&version);
+  if (version >= VK_API_VERSION_1_3) return Done{};
+  return Error{ErrorCode::unsupported, "the Vulkan loader is older than 1.3"};
+}
+
+Status create_instance(Device::State& state, const DeviceOptions& options, PFN_vkGetInstanceProcAddr get) {
+  RG_TRY(check_loader_version(state.vk));
+  if (options.validate && !has_layer(state.vk, kValidationLayer))
+    return Error{ErrorCode::unsupported, "the validation layer VK_LAYER_KHRONOS_validation is not installed; install the package `vulkan-validationlayers`"};
+  std::vector<const char*> extensions = options.instance_extensions;
+  if (options.validate || has_instance_extension(state.vk, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (options.validate) ask_for_submit_time_checks();
+
+  VkApplicationInfo application{};
+  application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
+  application.pEngineName = "rgc";
+  application.apiVersion = VK_API_VERSION_1_3;
+  const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(state);
+  VkValidationFeaturesEXT features{};
+  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+  features.pNext = &messenger;
+  features.enabledValidationFeatureCount = 1;
+  features.pEnabledValidationFeatures = &enabled;
+  VkInstanceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
+  info.pNext = options.validate ? &features : nullptr;
+  info.pApplicationInfo = &application;
+  info.enabledLayerCount = options.validate ? 1 : 0;
+  info.ppEnabledLayerNames = &kValidationLayer;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  RG_TRY(check(state.vk.CreateInstance(&info, nullptr, &state.instance), "vkCreateInstance", {}));
+  if (const char* missing = load_instance_functions(state.vk, get, state.instance)) {
+    if (state.vk.DestroyInstance != nullptr) state.vk.DestroyInstance(state.instance, nullptr);
+    state.instance = VK_NULL_HANDLE;
+    return Error{ErrorCode::unsupported, std::string("the Vulkan instance lacks ") + missing};
+  }
+  if (!options.validate) return Done{};
+  state.validating = state.classic_render_passes = true;
+  return check(state.vk.CreateDebugUtilsMessengerEXT(state.instance, &messenger, nullptr, &state.messenger), "vkCreateDebugUtilsMessengerEXT", {});
+}
+
+std::vector<VkPhysicalDevice> physical_devices(const Device::State& state) {
+  uint32_t count = 0;
+  if (state.vk.EnumeratePhysicalDevices(state.instance, &count, nullptr) != VK_SUCCESS) return {};
+  std::vector<VkPhysicalDevice> devices(count);
+  if (state.vk.EnumeratePhysicalDevices(state.instance, &count, devices.data()) < VK_SUCCESS) return {};
+  devices.resize(count);
+  return devices;
+}
+
+// A family that does graphics and compute; UINT32_MAX: none.
+uint32_t universal_family(const Device::State& state, VkPhysicalDevice physical) {
+  uint32_t count = 0;
+  state.vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  state.vk.GetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  for (uint32_t family = 0; family < count; ++family)
+    if ((families[family].queueFlags & wanted) == wanted) return family;
+  return UINT32_MAX;
+}
+
+// Why a device cannot run graphs; empty where it can.
+std::string unsuitable(const Device::State& state, VkPhysicalDevice physical) {
+  VkPhysicalDeviceProperties properties;
+  state.vk.GetPhysicalDeviceProperties(physical, &properties);
+  if (properties.apiVersion < VK_API_VERSION_1_3)
+    return "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) +
+           " instead of 1.3";
+  if (universal_family(state, physical) == UINT32_MAX) return "no queue for graphics and compute";
+  FeatureChain available;
+  state.vk.GetPhysicalDeviceFeatures2(physical, &available.core);
+  std::string text;
+  for (const std::string& name : missing_features(available)) text += (text.empty() ? "no feature " : ", ") + name;
+  return text;
+}
+
+DeviceDescription describe(const Device::State& state, VkPhysicalDevice physical) {
+  VkPhysicalDeviceProperties properties;
+  state.vk.GetPhysicalDeviceProperties(physical, &properties);
+  const std::string reason = unsuitable(state, physical);
+  return {properties.deviceName, properties.apiVersion, reason.empty(), reason};
+}
+
+int rank(const Device::State& state, VkPhysicalDevice physical) {
+  VkPhysicalDeviceProperties properties;
+  state.vk.GetPhysicalDeviceProperties(physical, &properties);
+  switch (properties.deviceType) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
+    default: return 0;
+  }
+}
+
+Status choose_by_index(Device::State& state, const std::vector<VkPhysicalDevice>& devices, int index) {
+  if (index >= static_cast<int>(devices.size()))
+    return Error{ErrorCode::invalid_argument, "there is no device " + std::to_string(index) + ": found " + std::to_string(devices.size())};
+  state.physical = devices[static_cast<size_t>(index)];
+  const DeviceDescription description = describe(state, state.physical);
+  if (description.usable) return Done{};
+  return Error{ErrorCode::unsupported, "device `" + description.name + "` cannot run graphs: " + description.reason};
+}
+
+Status choose_physical_device(Device::State& state, int index) {
+  const std::vector<VkPhysicalDevice> devices = physical_devices(state);
+  if (index >= 0) return choose_by_index(state, devices, index);
+  std::string reasons;
+  for (VkPhysicalDevice physical : devices) {
+    const DeviceDescription description = describe(state, physical);
+    if (!description.usable) reasons += "; `" + description.name + "`: " + description.reason;
+    if (description.usable && (state.physical == VK_NULL_HANDLE || rank(state, physical) > rank(state, state.physical))) state.physical = physical;
+  }
+  if (state.physical != VK_NULL_HANDLE) return Done{};
+  if (devices.empty()) return Error{ErrorCode::unsupported, "no Vulkan device; the package `mesa-vulkan-drivers` brings one that runs on the CPU"};
+  return Error{ErrorCode::unsupported, "no suitable Vulkan device" + reasons};
+}
+
+Status create_device(Device::State& state, const DeviceOptions& options) {
+  state.queue_family = universal_family(state, state.physical);
+  FeatureChain available, wanted;
+  state.vk.GetPhysicalDeviceFeatures2(state.physical, &available.core);
+  enable_available(wanted, available);
+  std::vector<const char*> extensions = options.device_extensions;
+  for (const char* extension : extensions)
+    if (!has_device_extension(state.vk, state.physical, extension))
+      return Error{ErrorCode::unsupported, std::string("the device lacks the extension ") + extension};
+  state.load_op_none = has_device_extension(state.vk, state.physical, kLoadOpNone);
+  if (state.load_op_none) extensions.push_back(kLoadOpNone);
+
+  const float priority = 1;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = state.queue_family;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.pNext = &wanted.core;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  RG_TRY(check(state.vk.CreateDevice(state.physical, &info, nullptr, &state.device), "vkCreateDevice", {}));
+  if (const char* missing = load_device_functions(state.vk, state.device))
+    return Error{ErrorCode::unsupported, std::string("the Vulkan device lacks ") + missing};
+  state.vk.GetDeviceQueue(state.device, state.queue_family, 0, &state.queue);
+  return Done{};
+}
+
+}  // namespace
+
+Result<Device> Device::create(const DeviceOptions& options) {
+  auto state = std::make_unique<State>();
+  state->owned = true;
+  state->on_message = options.on_message;
+  const Result<PFN_vkGetInstanceProcAddr> get = open_loader(*state);
+  if (!get) return get.error();
+  RG_TRY(create_instance(*state, options, *get));
+  RG_TRY(choose_physical_device(*state, options.device));
+  RG_TRY(create_device(*state, options));
+  describe_physical_device(*state);
+  return Device(std::move(state));
+}
+
+std::vector<DeviceDescription> list_devices() {
+  Device::State state;
+  state.owned = true;
+  const Result<PFN_vkGetInstanceProcAddr> get = open_loader(state);
+  if (!get || !create_instance(state, {}, *get)) return {};
+  std::vector<DeviceDescription> descriptions;
+  for (VkPhysicalDevice physical : physical_devices(state)) descriptions.push_back(describe(state, physical));
+  return descriptions;
+}
+
+}  // namespace rg
