@@ -1,0 +1,320 @@
+// The frame of the demo: a courtyard under several hundred lights.
+//
+//   cull meshes ─ sun shadow ─ depth ─ depth range ─ cull lights ─ G-buffer ─ shade ─ glass ─ expose ─ resolve ─ bloom ─ tone map
+module frame
+
+import "passes/view/view.rg"
+import "passes/scene/scene.rg"
+import "passes/geometry/geometry.rg"
+import "passes/culling/culling.rg"
+import "passes/lighting/lighting.rg"
+import "passes/post/post.rg"
+import "passes/debug/debug.rg"
+
+target vulkan 1.3
+extent view = runtime(640, 360) max(3840, 2160)
+
+graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view after copy_src)
+{
+  // ---- meshes -----------------------------------------------------------------------------------------------------
+  buffer world_draws : DrawArguments[MAX_INSTANCES]
+  buffer sun_draws   : DrawArguments[MAX_INSTANCES]
+  buffer cull_counts : u32[4] readback
+
+  pass mesh_cull : compute {
+    shader "passes/geometry/mesh_cull.comp" group 64 1 1
+    params camera
+    read   scene.instances as storage
+    write  world_draws as storage
+    write  sun_draws as storage
+    atomic cull_counts as storage clear 0
+    dispatch over MAX_INSTANCES
+  }
+
+  // ---- sun shadow -------------------------------------------------------------------------------------------------
+  image sun_shadow : d32f 1536x1536
+
+  pass sun_shadow_world : raster {
+    shader "passes/geometry/sun_world.vert"
+    state  caster
+    params camera
+    read   scene.instances as storage
+    read   scene.vertices as storage
+    read   scene.indices as storage
+    depth  sun_shadow clear 0.0
+    draw   indirect sun_draws max MAX_INSTANCES
+  }
+  pass sun_shadow_props : raster {
+    shader "passes/geometry/sun_props.vert"
+    state  caster
+    params camera
+    read   scene.props as vertex
+    read   scene.prop_indices as index
+    depth  sun_shadow
+    draw   host { per_draw PropDraw  vertex PropVertex }
+  }
+
+  // ---- depth ------------------------------------------------------------------------------------------------------
+  image depth : d32f view
+
+  pass depth_world : raster {
+    shader "passes/geometry/depth_world.vert"
+    state  world_depth
+    params camera
+    read   scene.instances as storage
+    read   scene.vertices as storage
+    read   scene.indices as storage
+    depth  depth clear 0.0
+    draw   indirect world_draws max MAX_INSTANCES
+  }
+  pass depth_props : raster {
+    shader "passes/geometry/depth_props.vert"
+    state  world_depth
+    params camera
+    read   scene.props as vertex
+    read   scene.prop_indices as index
+    depth  depth
+    draw   host { per_draw PropDraw  vertex PropVertex }
+  }
+
+  image depth_range : rg32f ceil(view / TILE) mips DEPTH_MIPS   // least and greatest depth; mip 0: one texel a light tile
+
+  pass depth_range_first : compute {
+    shader "passes/culling/depth_range_first.comp" group 8 8 1
+    read   depth as sampled
+    write  target = depth_range.mip(0) as storage
+    dispatch over depth_range
+  }
+  for mip in 1..mips(depth_range) {
+    pass depth_range_down[mip] : compute {
+      shader "passes/culling/depth_range_down.comp" group 8 8 1
+      read   source = depth_range.mip(mip - 1) as sampled
+      write  target = depth_range.mip(mip) as storage
+      dispatch over depth_range.mip(mip)
+    }
+  }
+
+  // ---- lights -----------------------------------------------------------------------------------------------------
+  buffer zbin_min : u32[ZBINS]
+  buffer zbin_max : u32[ZBINS]
+  buffer zbins    : u32[ZBINS]           // first light in the low half, last in the high half
+  buffer lights_seen    : u32[LIGHT_WORDS]                             // not hidden behind the depth pyramid
+  buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]    // that reach what is opaque in the tile
+  buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]    // that reach anything in front of it
+  buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
+
+  pass zbin_build : compute {
+    shader "passes/culling/zbin_build.comp" group 64 1 1
+    params camera
+    read   scene.lights as storage
+    atomic zbin_min as storage clear 65535
+    atomic zbin_max as storage clear 0
+    dispatch groups MAX_LIGHTS
+  }
+  pass zbin_pack : compute {
+    shader "passes/culling/zbin_pack.comp" group 64 1 1
+    read   zbin_min as storage
+    read   zbin_max as storage
+    write  zbins as storage
+    dispatch over ZBINS
+  }
+  pass light_occlusion : compute {
+    shader "passes/culling/light_occlusion.comp" group 64 1 1
+    params camera
+    read   scene.lights as storage
+    read   depth_range as sampled
+    atomic lights_seen as storage clear 0
+    dispatch over MAX_LIGHTS
+  }
+  pass light_cull : compute {
+    shader "passes/culling/light_cull.comp" group 64 1 1
+    params camera
+    read   scene.lights as storage
+    read   lights_seen as storage
+    read   bounds = depth_range.mip(0) as sampled
+    write  tile_lights as storage
+    write  forward_lights as storage
+    dispatch groups ceil(view / TILE)
+  }
+  pass tile_cull : compute {
+    shader "passes/culling/tile_cull.comp" group 16 16 1
+    params camera
+    read   scene.lights as storage
+    read   depth as sampled
+    write  tile_records as storage
+    dispatch groups ceil(view / SHADE_TILE)
+  }
+
+  // ---- G-buffer ---------------------------------------------------------------------------------------------------
+  image albedo   : rgba8 view              // a: share of the sky that is seen
+  image normal   : rg16 view               // octahedral
+  image material : rgba8 view              // roughness, metallic, bounced light, -
+  image emissive : r11g11b10f view
+  image velocity : rg16f view              // to last frame's place, in texture coordinates
+
+  pass gbuffer_world : raster {
+    shader "passes/geometry/gbuffer_world.vert" "passes/geometry/gbuffer_world.frag"
+    state  world_equal
+    params camera
+    read   scene.instances as storage
+    read   scene.vertices as storage
+    read   scene.indices as storage
+    read   scene.materials as storage
+    read   scene.albedo_maps as sampled(surface_sampler)
+    read   scene.surface_maps as sampled(surface_sampler)
+    color  albedo clear 0
+    color  normal clear 0
+    color  material clear 0
+    color  emissive clear 0
+    color  velocity clear 0
+    depth  depth readonly
+    draw   indirect world_draws max MAX_INSTANCES
+  }
+  pass gbuffer_props : raster {
+    shader "passes/geometry/gbuffer_props.vert" "passes/geometry/gbuffer_props.frag"
+    state  world_equal
+    params camera
+    read   scene.props as vertex
+    read   scene.prop_indices as index
+    color  albedo
+    color  normal
+    color  material
+    color  emissive
+    color  velocity
+    depth  depth readonly
+    draw   host { per_draw PropDraw  vertex PropVertex }
+  }
+
+  // ---- shading ----------------------------------------------------------------------------------------------------
+  image occlusion : r16f view / 2
+  image hdr       : rgba16f view
+
+  pass ambient_occlusion : compute {
+    shader "passes/lighting/ambient_occlusion.comp" group 8 8 1
+    params camera
+    read   depth as sampled
+    read   normal as sampled
+    write  occlusion as storage
+    dispatch over view / 2
+  }
+  pass deferred_light : compute {
+    shader "passes/lighting/deferred_light.comp" group 16 16 1
+    params camera
+    read   scene.lights as storage
+    read   tile_records as storage
+    read   tile_lights as storage
+    read   zbins as storage
+    read   depth as sampled
+    read   albedo as sampled
+    read   normal as sampled
+    read   material as sampled
+    read   emissive as sampled
+    read   occlusion as sampled(linear_clamp)
+    read   sun_shadow as sampled
+    write  hdr as storage
+    dispatch over view
+  }
+  pass transparent : raster {
+    shader "passes/lighting/transparent.vert" "passes/lighting/transparent.frag"
+    state  glass
+    params camera
+    read   scene.instances as storage
+    read   scene.vertices as storage
+    read   scene.indices as storage
+    read   scene.materials as storage
+    read   scene.lights as storage
+    read   forward_lights as storage
+    read   zbins as storage
+    read   sun_shadow as sampled
+    color  hdr blend add(src_alpha, one_minus_src_alpha)
+    depth  depth readonly
+    draw   host { per_draw GlassDraw }
+  }
+  pass hologram : raster {                 // pipelines of the host's own, built from PassInfo
+    color  hdr blend add(one, one)
+    depth  depth readonly
+    draw   host { per_draw HologramDraw }
+  }
+
+  image debug_image : rgba8 view
+  pass debug_view : compute {
+    shader "passes/debug/debug_view.comp" group 8 8 1
+    params camera
+    read   depth as sampled
+    read   albedo as sampled
+    read   normal as sampled
+    read   material as sampled
+    read   emissive as sampled
+    read   velocity as sampled
+    read   occlusion as sampled(linear_clamp)
+    read   hdr as sampled
+    read   tile_records as storage
+    read   tile_lights as storage
+    read   forward_lights as storage
+    read   zbins as storage
+    write  debug_image as storage
+    dispatch over view
+  }
+
+  // ---- post -------------------------------------------------------------------------------------------------------
+  buffer histogram : u32[HISTOGRAM_BINS]
+  buffer exposure  : Exposure[1] history 1 init clear 0
+  image  color     : rgba16f view history 1 init clear 0      // a: 1 where it holds a frame
+  image  bloom     : rgba16f view / 2 mips BLOOM_MIPS
+
+  pass luminance : compute {
+    shader "passes/post/luminance.comp" group 16 16 1
+    read   hdr as sampled
+    atomic histogram as storage clear 0
+    dispatch over view / 2
+  }
+  pass expose : compute {
+    shader "passes/post/expose.comp" group 1 1 1
+    params camera
+    read   histogram as storage
+    read   exposure.prev(1) as storage
+    write  exposure as storage
+    dispatch groups 1
+  }
+  pass resolve_temporal : compute {
+    shader "passes/post/resolve_temporal.comp" group 8 8 1
+    params camera
+    read   hdr as sampled
+    read   depth as sampled
+    read   velocity as sampled
+    read   color.prev(1) as sampled(linear_clamp)
+    write  color as storage
+    dispatch over view
+  }
+  pass bloom_first : compute {
+    shader "passes/post/bloom_first.comp" group 8 8 1
+    read   color as sampled(linear_clamp)
+    write  target = bloom.mip(0) as storage
+    dispatch over bloom
+  }
+  for mip in 1..mips(bloom) {
+    pass bloom_down[mip] : compute {
+      shader "passes/post/bloom_down.comp" group 8 8 1
+      read   source = bloom.mip(mip - 1) as sampled(linear_clamp)
+      write  target = bloom.mip(mip) as storage
+      dispatch over bloom.mip(mip)
+    }
+  }
+  for step in 1..BLOOM_MIPS {
+    pass bloom_up[step] : compute {
+      shader "passes/post/bloom_up.comp" group 8 8 1
+      read   source = bloom.mip(BLOOM_MIPS - step) as sampled(linear_clamp)
+      update target = bloom.mip(BLOOM_MIPS - 1 - step) as storage
+      dispatch over bloom.mip(BLOOM_MIPS - 1 - step)
+    }
+  }
+  pass tonemap : raster {
+    fullscreen "passes/post/tonemap.frag"
+    params camera
+    read   color as sampled
+    read   bloom = bloom.mip(0) as sampled(linear_clamp)
+    read   exposure as storage
+    read   debug_image as sampled
+    color  backbuffer
+  }
+}

@@ -1,0 +1,18 @@
+// From instances to a G-buffer: culling, indirect draws of the world, recorded draws of the props.
+module geometry
+
+struct DrawArguments { vertex_count: u32  instance_count: u32  first_vertex: u32  first_instance: u32 }
+struct PropDraw { model: mat3x4  previous: mat3x4  tint: vec3  swing: f32 }
+struct GlassDraw { instance: u32 }
+struct HologramDraw { model_to_clip: mat4  color: vec4 }
+
+const COUNT_VISIBLE = 0            // of `cull_counts`
+const COUNT_OUTSIDE = 1
+const COUNT_SUN = 2
+const COUNT_TRIANGLES = 3
+
+const SUN_SHADOW_SIZE = 1536
+
+state world_depth { cull back  depth test greater_equal  depth write on }
+state world_equal { cull back  depth test greater_equal  depth write off }
+state caster      { cull none  depth test greater_equal  depth write on }

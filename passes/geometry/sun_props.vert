@@ -1,0 +1,6 @@
+#include "props.glsl"
+
+void main() {
+  vec3 world = place_prop(per_draw.model, swing_point(position, part, per_draw.swing));
+  gl_Position = camera.world_to_sun * vec4(world, 1.0);
+}

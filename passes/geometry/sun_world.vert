@@ -1,0 +1,6 @@
+#include "pull.glsl"
+
+void main() {
+  vec3 world = place(instances[gl_InstanceIndex].model, pull_vertex(gl_VertexIndex).position);
+  gl_Position = camera.world_to_sun * vec4(world, 1.0);
+}
