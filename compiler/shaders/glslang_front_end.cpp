@@ -1,0 +1,131 @@
+#include "compiler/shaders/glslang_front_end.h"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <sstream>
+#include <string_view>
+
+namespace rg::compiler {
+namespace {
+
+constexpr std::string_view kPreludeName = "<interface>";
+
+EShLanguage language(dsl::Stage stage) {
+  switch (stage) {
+    case dsl::stage_vertex: return EShLangVertex;
+    case dsl::stage_tess_control: return EShLangTessControl;
+    case dsl::stage_tess_eval: return EShLangTessEvaluation;
+    case dsl::stage_geometry: return EShLangGeometry;
+    case dsl::stage_fragment: return EShLangFragment;
+    default: return EShLangCompute;
+  }
+}
+
+class Includer : public glslang::TShader::Includer {
+ public:
+  Includer(ShaderSources& sources, std::set<std::string>& names) : sources_(sources), names_(names) {}
+
+  IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
+    if (depth > 32) return nullptr;
+    for (const std::string& folder : {folder_of(includer), std::string()}) {
+      const auto path = resolve_path(folder, header);
+      const std::string* found = path ? sources_.find(*path) : nullptr;
+      if (found == nullptr) continue;
+      names_.insert(*path);
+      return new IncludeResult(*path, found->data(), found->size(), nullptr);
+    }
+    return nullptr;
+  }
+  void releaseInclude(IncludeResult* result) override { delete result; }
+
+ private:
+  ShaderSources& sources_;
+  std::set<std::string>& names_;
+};
+
+void start_glslang() {
+  static const bool started = glslang::InitializeProcess();
+  (void)started;
+}
+
+// "NAME:12: text" where NAME is one of `names`; longer names first, as one may end another.
+ShaderMessage place(std::string_view line, const std::set<std::string>& names) {
+  ShaderMessage message;
+  message.text = line;
+  size_t matched = 0;
+  for (const std::string& name : names) {
+    if (name.size() < matched || !line.starts_with(name) || line.size() <= name.size() || line[name.size()] != ':') continue;
+    const size_t digits = name.size() + 1, colon = line.find(':', digits);
+    if (colon == std::string_view::npos) continue;
+    matched = name.size();
+    message.file = name == kPreludeName ? "" : name;
+    message.line = static_cast<uint32_t>(std::strtoul(std::string(line.substr(digits, colon - digits)).c_str(), nullptr, 10));
+    message.text = line.substr(std::min(colon + 2, line.size()));
+  }
+  return message;
+}
+
+std::string trimmed(std::string text) {
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\r')) text.pop_back();
+  return text;
+}
+
+// glslang repeats itself and counts; what is left is one message a line.
+std::vector<ShaderMessage> parse_log(const std::string& log, const std::set<std::string>& names) {
+  std::vector<ShaderMessage> messages;
+  std::istringstream stream(log);
+  for (std::string line; std::getline(stream, line);) {
+    line = trimmed(line);
+    constexpr std::string_view kError = "ERROR: ";
+    if (!line.starts_with(kError) || line.find("compilation terminated") != std::string::npos || line.find("compilation errors") != std::string::npos) continue;
+    ShaderMessage message = place(std::string_view(line).substr(kError.size()), names);
+    const auto same_line = [&](const ShaderMessage& m) { return m.file == message.file && m.line == message.line; };
+    if (std::none_of(messages.begin(), messages.end(), same_line)) messages.push_back(std::move(message));
+  }
+  return messages;
+}
+
+void configure(glslang::TShader& shader, dsl::Stage stage) {
+  shader.setEnvInput(glslang::EShSourceGlsl, language(stage), glslang::EShClientVulkan, 100);
+  shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
+  shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_5);
+}
+
+}  // namespace
+
+FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources) {
+  start_glslang();
+  std::set<std::string> names = {std::string(kPreludeName), path};
+  const char* texts[] = {prelude.c_str(), text.c_str()};
+  const int lengths[] = {static_cast<int>(prelude.size()), static_cast<int>(text.size())};
+  const char* labels[] = {kPreludeName.data(), path.c_str()};
+  const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+
+  glslang::TShader shader(language(stage));
+  shader.setStringsWithLengthsAndNames(texts, lengths, labels, 2);
+  configure(shader, stage);
+  Includer includer(sources, names);
+  FrontEndOutput output;
+  if (!shader.parse(GetDefaultResources(), 460, false, messages, includer)) {
+    output.errors = parse_log(shader.getInfoLog(), names);
+    return output;
+  }
+  glslang::TProgram program;
+  program.addShader(&shader);
+  if (!program.link(messages)) {
+    output.errors = parse_log(program.getInfoLog(), names);
+    return output;
+  }
+  glslang::SpvOptions options;
+  options.disableOptimizer = true;
+  spv::SpvBuildLogger logger;
+  glslang::GlslangToSpv(*program.getIntermediate(language(stage)), output.words, &logger, &options);
+  return output;
+}
+
+}  // namespace rg::compiler

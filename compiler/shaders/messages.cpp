@@ -1,0 +1,105 @@
+// glslang says what the language forbids; here it becomes what the pass forbids, where the two are the same mistake.
+#include <algorithm>
+
+#include "compiler/shaders/agreement.h"
+
+namespace rg::compiler {
+namespace {
+
+using dsl::Diagnostic;
+using dsl::DiagnosticKind;
+
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+std::string last_part(const std::string& name) {
+  const size_t dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
+
+std::string quoted_word(const std::string& message) {
+  const size_t begin = message.find('\''), end = message.find('\'', begin + 1);
+  return begin == std::string::npos || end == std::string::npos ? "" : message.substr(begin + 1, end - begin - 1);
+}
+
+// "'foo' : undeclared identifier " -> "`foo`: undeclared identifier", the house's way to quote
+std::string restyle(const std::string& message) {
+  const std::string word = quoted_word(message);
+  const size_t colon = message.find("' : ");
+  if (colon == std::string::npos) return message;
+  const std::string rest = message.substr(colon + 4);
+  return word.empty() ? rest : "`" + word + "`: " + rest;
+}
+
+// What to write in the pass to get `name`, if the graph has such a thing.
+std::string suggestion(const PassContext& context, const std::string& name) {
+  for (const dsl::Resource& resource : context.graph.resources)
+    if (last_part(resource.name) == name) return "read " + resource.name + (resource.kind == dsl::ResourceKind::image ? " as sampled" : " as storage");
+  for (const dsl::Params& params : context.graph.params)
+    if (!params.pass.valid() && last_part(params.name) == name) return "params " + params.name;
+  return "";
+}
+
+// The binding whose name stands in glslang's words or in the offending line.
+const dsl::Access* access_meant(const PassContext& context, const std::string& message, const std::string& line, dsl::Mode mode) {
+  for (const std::string* text : {&message, &line})
+    for (const dsl::Access& access : context.pass.accesses)
+      if (access.mode == mode && access.role == dsl::Role::storage && text->find(access.name) != std::string::npos) return &access;
+  return nullptr;
+}
+
+bool report_contradiction(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
+  const bool write = contains(message.text, "can't modify a readonly");
+  const bool read = contains(message.text, "can't read from writeonly");
+  const bool dropped = contains(message.text, "cannot drop memory qualifier");
+  if (!write && !read && !dropped) return false;
+  const bool through_read = write || (dropped && contains(message.text, "readonly"));
+  const std::string line = places.text_of_line(message.file, message.line);
+  const dsl::Access* access = access_meant(context, message.text, line, through_read ? dsl::Mode::read : dsl::Mode::write);
+  if (access == nullptr) return false;
+  const DiagnosticKind kind = through_read ? DiagnosticKind::WriteThroughRead : DiagnosticKind::ReadOfWriteOnly;
+  diagnostics.report(kind, places.word_in_line(message.file, message.line, access->name), {access->name, context.pass.name})
+      .note(DiagnosticKind::AccessDeclaredHere, access->span, {access->name});
+  return true;
+}
+
+bool report_undeclared(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
+  const std::string name = quoted_word(message.text);
+  const std::string declaration = contains(message.text, "undeclared identifier") ? suggestion(context, name) : "";
+  if (declaration.empty()) return false;
+  diagnostics.report(DiagnosticKind::UndeclaredAccess, places.word_in_line(message.file, message.line, name), {name, context.pass.name})
+      .note(DiagnosticKind::DeclareAccess, context.pass.span, {declaration});
+  return true;
+}
+
+bool report_local_size(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
+  if (!contains(message.text, "local_size") || !contains(message.text, "cannot change previously set size")) return false;
+  diagnostics.report(DiagnosticKind::LocalSizeInShader, places.line(message.file, message.line), {context.pass.name})
+      .note(DiagnosticKind::GroupOfPass, context.pass.span);
+  return true;
+}
+
+// A name the declaration chose and GLSL refuses, `input` for one.
+void report_in_prelude(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message,
+                       dsl::Diagnostics& diagnostics) {
+  const bool has_line = message.line >= 1 && message.line <= prelude.size() && prelude[message.line - 1].origin.file.valid();
+  const dsl::Span origin = has_line ? prelude[message.line - 1].origin : shader.span;
+  diagnostics.report(DiagnosticKind::InterfaceDoesNotCompile, origin, {context.pass.name, restyle(message.text)})
+      .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+}
+
+}  // namespace
+
+void report_message(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message, ShaderPlaces& places,
+                    dsl::Diagnostics& diagnostics) {
+  if (message.file.empty() && message.line > 0) return report_in_prelude(context, shader, prelude, message, diagnostics);
+  if (!message.file.empty() && (report_contradiction(context, message, places, diagnostics) || report_undeclared(context, message, places, diagnostics) ||
+                                report_local_size(context, message, places, diagnostics)))
+    return;
+  const std::string word = quoted_word(message.text);
+  const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
+  const bool no_main = contains(message.text, "Missing entry point");
+  diagnostics.report(DiagnosticKind::ShaderDoesNotCompile, span, {no_main ? "`" + shader.path + "` has no `void main()`" : restyle(message.text)})
+      .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+}
+
+}  // namespace rg::compiler

@@ -1,0 +1,34 @@
+// Shader files: where a path leads, and a cache of what was read.
+#pragma once
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/shaders/shaders.h"
+
+namespace rg::compiler {
+
+// `path` as written in a file of `folder`, relative to the root folder and without `.` and `..`; nullopt if it leaves the root folder.
+std::optional<std::string> resolve_path(const std::string& folder, const std::string& path);
+std::string folder_of(const std::string& path);
+// Folder of the module that `span` lies in, relative to the root file's folder.
+std::string module_folder(const dsl::SourceFiles& files, dsl::Span span);
+
+// Reads each file once. Safe to call from several threads; the reader itself is called by one at a time.
+class ShaderSources {
+ public:
+  explicit ShaderSources(ReadFile read) : read_(std::move(read)) {}
+  // Null if unreadable. The text lives as long as this object.
+  const std::string* find(const std::string& path);
+  std::vector<std::string> readable_paths() const;  // sorted
+
+ private:
+  ReadFile read_;
+  mutable std::mutex mutex_;
+  std::map<std::string, std::optional<std::string>> texts_;
+};
+
+}  // namespace rg::compiler
