@@ -1,0 +1,87 @@
+#include "compiler/commands/command.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <numeric>
+
+#include "compiler/commands/files.h"
+
+namespace rg::commands {
+namespace {
+
+bool wants_colour() { return ::isatty(STDERR_FILENO) && !std::getenv("NO_COLOR"); }
+
+// Levenshtein distance; O(|a| |b|).
+size_t edits(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0]++;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t substitute = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({substitute, row[j] + 1, row[j + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
+  command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
+  const auto off = [&](const char* flag, bool& what, const char* help) { command.add_flag_callback(flag, [&what] { what = false; }, help); };
+  off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
+  off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
+  off("--no-merge", options.plan.merge, "keep every rendering of its own");
+  off("--no-discard", options.plan.discard, "load and store all attachments");
+}
+
+int finish(dsl::Diagnostics& diagnostics, const dsl::SourceFiles& sources, bool json) {
+  show_progress({});
+  diagnostics.sort();
+  if (json)
+    print(dsl::print_json(diagnostics, sources));
+  else
+    fmt::print(stderr, "{}", dsl::print(diagnostics, sources, wants_colour()));
+  return diagnostics.has_errors() ? exit_input_wrong : exit_done;
+}
+
+std::optional<compiler::CompileResult> compile_or_report(const std::string& path, compiler::CompileOptions options) {
+  dsl::Diagnostics diagnostics;
+  options.progress = show_progress;
+  compiler::CompileResult result = compiler::compile(path, reader_for(path), options, diagnostics);
+  if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {path});
+  if (finish(diagnostics, result.sources) != exit_done) return std::nullopt;
+  return result;
+}
+
+void show_progress(std::string_view what) {
+  static const bool terminal = ::isatty(STDERR_FILENO);
+  if (terminal) fmt::print(stderr, "\r\033[K{}", what);
+}
+
+void print(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+std::string counted(size_t count, std::string_view noun, std::string_view plural) {
+  if (count == 1) return fmt::format("1 {}", noun);
+  return plural.empty() ? fmt::format("{} {}s", count, noun) : fmt::format("{} {}", count, plural);
+}
+
+std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates) {
+  const std::string* best = nullptr;
+  size_t best_edits = std::max<size_t>(1, name.size() / 3) + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = edits(name, candidate);
+    if (distance >= best_edits) continue;
+    best_edits = distance;
+    best = &candidate;
+  }
+  return best ? std::optional(*best) : std::nullopt;
+}
+
+}  // namespace rg::commands

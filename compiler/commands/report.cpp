@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "compiler/commands/command.h"
+#include "compiler/commands/facts.h"
+
+namespace rg::commands {
+namespace {
+
+struct ReportOptions {
+  std::string file;
+  bool json = false;
+  compiler::CompileOptions compile;
+};
+
+std::string mib(uint64_t bytes) { return fmt::format("{:.2f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0)); }
+
+double percent(uint64_t part, uint64_t whole) { return whole ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0; }
+
+std::string text_of(const Facts& facts, const PlanData& plan) {
+  std::string text = fmt::format("graph {}{}{}\n", facts.graph, facts.variant.empty() ? "" : "  ", facts.variant);
+  text += fmt::format("  passes    {} live, {} culled\n", facts.passes_live, facts.passes_culled);
+  for (const Culled& culled : plan.culled) text += fmt::format("              {}: {}\n", culled.pass, culled.reason);
+  text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
+                      mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
+  text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
+  text += fmt::format("  queues    {}, {}\n", counted(facts.submits, "submit"), counted(facts.waits, "wait"));
+  text += fmt::format("  variants  {}, {}\n", counted(facts.plans, "plan"), counted(facts.shaders, "shader"));
+  text += fmt::format("  planned   in {:.2f} ms\n", facts.plan_ms);
+  for (const auto& [phase, ms] : facts.phase_ms) text += fmt::format("              {:<12} {:.2f} ms\n", phase, ms);
+  return text;
+}
+
+// The facts of the first plan at the top; `plans` holds those of every graph and configuration.
+nlohmann::ordered_json json_of(const std::vector<Facts>& all) {
+  nlohmann::ordered_json json = {{"schema", "rgc-report-1"}};
+  json.update(to_json(all.front()));
+  json["plans"] = nlohmann::ordered_json::array();
+  for (const Facts& facts : all) json["plans"].push_back(to_json(facts));
+  return json;
+}
+
+int report(const ReportOptions& options) {
+  compiler::CompileOptions compile = options.compile;
+  compile.until = compiler::Until::plans;
+  const auto result = compile_or_report(options.file, compile);
+  if (!result) return exit_input_wrong;
+  std::vector<Facts> all;
+  for (const compiler::CompiledGraph& graph : result->graphs) {
+    for (const compiler::FramePlan& plan : graph.plans) {
+      all.push_back(find_facts(result->program, graph, plan));
+      if (!options.json) print(text_of(all.back(), plan.plan));
+    }
+  }
+  if (options.json) print(json_of(all).dump(2) + "\n");
+  return exit_done;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("report", "memory, barriers, queues, variants and costs beside their bounds");
+  auto options = std::make_shared<ReportOptions>();
+  command->add_option("FILE", options->file, "the root .rg file")->required();
+  command->add_flag("--json", options->json, "the same facts as JSON; see docs/cli.md");
+  add_plan_options(*command, options->compile);
+  command->callback([=, &run] { run = [=] { return report(*options); }; });
+}
+
+}  // namespace rg::commands

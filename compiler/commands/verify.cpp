@@ -1,0 +1,58 @@
+#include "compiler/verify/verify.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "compiler/commands/command.h"
+#include "compiler/configurations.h"
+
+namespace rg::commands {
+namespace {
+
+struct VerifyCommand {
+  std::string file;
+  bool mutate = false;
+  compiler::CompileOptions compile;
+};
+
+std::string subject(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
+  const std::string variant = compiler::configuration_name(result.program, plan.configuration);
+  return result.program.graphs[graph.graph].name + (variant.empty() ? "" : " " + variant);
+}
+
+// True if the checker proves the plan; findings are printed.
+bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
+  const std::string name = subject(result, graph, plan);
+  show_progress("proving " + name);
+  const auto findings = verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass,
+                                       plan.plan.program_resource);
+  show_progress({});
+  for (const verify::Finding& finding : findings) print(fmt::format("{}: {}: {}\n", name, verify::name(finding.hazard), finding.text));
+  if (findings.empty()) print(fmt::format("{}: proved\n", name));
+  return findings.empty();
+}
+
+int verify_file(const VerifyCommand& options) {
+  compiler::CompileOptions compile = options.compile;
+  compile.until = compiler::Until::plans;
+  const auto result = compile_or_report(options.file, compile);
+  if (!result) return exit_input_wrong;
+  bool proved = true;
+  for (const compiler::CompiledGraph& graph : result->graphs)
+    for (const compiler::FramePlan& plan : graph.plans) proved &= prove(*result, graph, plan);
+  return proved ? exit_done : exit_our_fault;  // the planner made what the checker does not accept
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("verify", "prove that the plans mean what the program says");
+  auto options = std::make_shared<VerifyCommand>();
+  command->add_option("FILE", options->file, "the root .rg file")->required();
+  command->add_flag("--mutate", options->mutate, "test the checker: every damaged plan must be rejected");
+  add_plan_options(*command, options->compile);
+  command->callback([=, &run] { run = [=] { return verify_file(*options); }; });
+}
+
+}  // namespace rg::commands
