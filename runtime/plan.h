@@ -56,7 +56,7 @@ struct Expr {                // operands precede users; `extent`: value = 3 * ex
   int64_t value = 0;
 };
 struct Extent {
-  std::string_view name;
+  std::string_view name = {};
   uint32_t axes = 2;
   int64_t initial[3] = {1, 1, 1};
   int64_t maximum[3] = {1, 1, 1};
@@ -71,7 +71,7 @@ enum class InitKind : uint8_t { none, clear };
 struct ClearValue { uint32_t word[4] = {0, 0, 0, 0}; };  // bits of VkClearColorValue; depth in word[0] as float bits, stencil in word[1]
 
 struct Resource {
-  std::string_view name;
+  std::string_view name = {};
   ResourceKind kind = ResourceKind::image;
   Lifetime lifetime = Lifetime::transient;
   Dimension dimension = Dimension::d2;
@@ -85,13 +85,13 @@ struct Resource {
   uint32_t stride = 0;                                 // bytes an element
   uint32_t copies = 1;                                 // history n: n + 1; copy of age k at frame f is (f - k) mod copies
   InitKind init = InitKind::none;
-  ClearValue init_value;
+  ClearValue init_value = {};
   bool is_surface = false;
   bool no_alias = false;
   Index import_slot = kNone;                           // position in the generated Imports
   uint64_t estimated_bytes = 0, estimated_alignment = 1, estimated_offset = 0;  // at the initial extents, by the device profile
   uint32_t line = 0;                                   // in the file that declares it
-  std::string_view file;
+  std::string_view file = {};
 };
 
 struct Ref {  // a physical copy: resource and how many frames ago it was the current one
@@ -120,8 +120,8 @@ struct MemoryBarrier {
   friend constexpr bool operator==(const MemoryBarrier&, const MemoryBarrier&) = default;
 };
 struct ImageBarrier {
-  Ref image;
-  Range range;
+  Ref image = {};
+  Range range = {};
   Stages src_stages = 0; Accesses src_accesses = 0;
   Stages dst_stages = 0; Accesses dst_accesses = 0;
   Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
@@ -130,8 +130,8 @@ struct ImageBarrier {
   friend constexpr bool operator==(const ImageBarrier&, const ImageBarrier&) = default;
 };
 struct BufferBarrier {
-  Ref buffer;
-  Bytes bytes;
+  Ref buffer = {};
+  Bytes bytes = {};
   Stages src_stages = 0; Accesses src_accesses = 0;
   Stages dst_stages = 0; Accesses dst_accesses = 0;
   Index src_queue = kNone, dst_queue = kNone;
@@ -165,8 +165,8 @@ struct AliasPair { Index before = kNone, after = kNone; bool wraps = false; };
 
 // State of a range of a resource at the start and at the end of every frame. Established by the prologue at creation and resize.
 struct Boundary {
-  Ref ref;
-  Range range;
+  Ref ref = {};
+  Range range = {};
   Stages stages = 0; Accesses accesses = 0;
   Layout layout = Layout::undefined;
   Index queue = kNone;
@@ -176,9 +176,9 @@ struct Boundary {
 // ---- passes -------------------------------------------------------------------------------------------------------
 
 struct Access {  // what one pass does to one resource, in Vulkan's terms; debug tools and dumps read it
-  Ref ref;
-  Range range;
-  Bytes bytes;
+  Ref ref = {};
+  Range range = {};
+  Bytes bytes = {};
   Stages stages = 0; Accesses accesses = 0;
   Layout layout = Layout::undefined;
   bool writes = false;
@@ -187,14 +187,14 @@ struct Access {  // what one pass does to one resource, in Vulkan's terms; debug
 enum class LoadOp : uint8_t { load = 0, clear = 1, dont_care = 2, none = 3 };
 enum class StoreOp : uint8_t { store = 0, dont_care = 1, none = 2 };
 struct Attachment {
-  Ref ref;
-  Range range;             // one mip
+  Ref ref = {};
+  Range range = {};             // one mip
   Layout layout = Layout::undefined;
   LoadOp load = LoadOp::load;
   StoreOp store = StoreOp::store;
-  ClearValue clear;
-  Ref resolve;             // resource kNone: none
-  Range resolve_range;
+  ClearValue clear = {};
+  Ref resolve = {};             // resource kNone: none
+  Range resolve_range = {};
   Layout resolve_layout = Layout::undefined;
   uint32_t resolve_mode = 0;  // VkResolveModeFlagBits
 };
@@ -207,9 +207,9 @@ struct Rendering {
 
 enum class ShaderStage : uint32_t { vertex = 1, tess_control = 2, tess_eval = 4, geometry = 8, fragment = 16, compute = 32 };  // VkShaderStageFlagBits
 struct ShaderModule {
-  std::string_view name;   // "lighting/light_cull.comp"
+  std::string_view name = {};   // "lighting/light_cull.comp"
   ShaderStage stage = ShaderStage::compute;
-  std::span<const uint32_t> words;
+  std::span<const uint32_t> words = {};
 };
 enum class BlendFactor : uint8_t { zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha };  // VkBlendFactor
 enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // VkBlendOp
@@ -234,10 +234,10 @@ struct RasterState {
 };
 // A pipeline the runtime builds. Attachment formats and samples come from the pass's Rendering.
 struct Pipeline {
-  std::string_view name;
+  std::string_view name = {};
   Index pass = kNone;      // whose layout and rendering it is built for
   Index first_shader = 0, shader_count = 0;  // in Plan::pipeline_shaders (indices of Plan::shaders)
-  RasterState raster;
+  RasterState raster = {};
   Index first_blend = 0, blend_count = 0;
   Index first_vertex_binding = 0, vertex_binding_count = 0;
   Index first_vertex_attribute = 0, vertex_attribute_count = 0;
@@ -250,9 +250,9 @@ struct Binding {  // one descriptor of set 1
   uint32_t binding = 0;
   DescriptorType type = DescriptorType::sampled_image;
   uint32_t stages = 0;     // ShaderStage bits
-  Ref ref;                 // resource kNone: a parameter block or a bare sampler
-  Range range;
-  Bytes bytes;
+  Ref ref = {};                 // resource kNone: a parameter block or a bare sampler
+  Range range = {};
+  Bytes bytes = {};
   Dimension view = Dimension::d2;
   bool arrayed = false;    // view type *_ARRAY
   Format view_format = Format::undefined;  // undefined: the image's own
@@ -261,14 +261,14 @@ struct Binding {  // one descriptor of set 1
   Index params = kNone;    // uniform_buffer_dynamic: in Plan::params
 };
 struct Sampler {
-  std::string_view name;
+  std::string_view name = {};
   bool linear = false, mip_linear = false;
   uint8_t address = 2;     // VkSamplerAddressMode
   bool compare_enabled = false;
   Compare compare = Compare::never;
   float max_anisotropy = 0;
 };
-struct Params { std::string_view name; uint32_t bytes = 0; Index pass = kNone; };  // a block in the per-frame ring, dynamic offset
+struct Params { std::string_view name = {}; uint32_t bytes = 0; Index pass = kNone; };  // a block in the per-frame ring, dynamic offset
 
 enum class PassKind : uint8_t { raster, compute, transfer, host };
 enum class WorkKind : uint8_t {  // what the executor records for the pass, after rendering, pipeline and set are bound
@@ -277,29 +277,29 @@ enum class WorkKind : uint8_t {  // what the executor records for the pass, afte
 struct Work {
   WorkKind kind = WorkKind::none;
   Index x = kNone, y = kNone, z = kNone;  // Expr: dispatch groups | vertices, instances
-  Ref arguments;
+  Ref arguments = {};
   Index arguments_offset = kNone;         // Expr, bytes
-  Ref counts;
+  Ref counts = {};
   uint32_t max_draws = 1, stride = 16;
   Index first_transfer = 0, transfer_count = 0;
 };
 enum class TransferKind : uint8_t { copy_image, copy_buffer, copy_buffer_to_image, copy_image_to_buffer, blit, clear_color, clear_depth_stencil, fill, update, resolve };
 struct Transfer {
   TransferKind kind = TransferKind::copy_image;
-  Ref src, dst;
-  Range src_range, dst_range;
-  Bytes src_bytes, dst_bytes;
+  Ref src = {}, dst = {};
+  Range src_range = {}, dst_range = {};
+  Bytes src_bytes = {}, dst_bytes = {};
   bool linear = false;
-  ClearValue value;
+  ClearValue value = {};
   Index update_slot = kNone;  // host bytes in the generated Updates
 };
 struct MipLimit { Index image = kNone; uint32_t mip = 0; };  // runs only while mip < the image's mips
 
 enum class SetRole : uint8_t { engine = 0, pass = 1, material = 2, draw = 3 };
-struct EngineSet { std::string_view name; SetRole role = SetRole::engine; };
+struct EngineSet { std::string_view name = {}; SetRole role = SetRole::engine; };
 
 struct Pass {
-  std::string_view name, module;
+  std::string_view name = {}, module = {};
   PassKind kind = PassKind::compute;
   Index queue = 0;                        // in Plan::queues
   uint64_t guard = 0;                     // all these conditions must hold, bits of Plan::conditions; 0: always runs
@@ -310,11 +310,11 @@ struct Pass {
   Index first_params = 0, params_count = 0;  // dynamic offsets, in binding order: Plan::pass_params (indices of Plan::params)
   uint32_t push_bytes = 0, push_stages = 0;
   Index engine_set = kNone;
-  Work work;
+  Work work = {};
   Index host_slot = kNone;                // position of the callback in the generated recorder
   Index first_mip_limit = 0, mip_limit_count = 0;
   uint32_t line = 0;
-  std::string_view file;
+  std::string_view file = {};
 };
 
 // ---- the frame ----------------------------------------------------------------------------------------------------
@@ -331,48 +331,48 @@ struct Batch {  // one VkSubmitInfo2
   Index first_wait = 0, wait_count = 0;
   Index first_signal = 0, signal_count = 0;
 };
-struct Culled { std::string_view pass, reason; };
+struct Culled { std::string_view pass = {}, reason = {}; };
 
 struct Plan {
   uint32_t version = kPlanVersion;
-  std::string_view name;
+  std::string_view name = {};
   uint32_t variant = 0, variant_count = 1;  // of the feature configuration this plan is for
-  std::string_view variant_name;
-  std::span<const Expr> exprs;
-  std::span<const Extent> extents;
-  std::span<const Resource> resources;
-  std::span<const Queue> queues;
-  std::span<const Batch> batches;
-  std::span<const Step> steps;
-  std::span<const Wait> waits;
-  std::span<const Signal> signals;
-  std::span<const BarrierGroup> groups;
-  std::span<const MemoryBarrier> memory_barriers;
-  std::span<const ImageBarrier> image_barriers;
-  std::span<const BufferBarrier> buffer_barriers;
-  std::span<const Boundary> entry, exit;
-  std::span<const Acquire> acquires;
-  std::span<const Release> releases;
-  std::span<const AliasPair> alias_pairs;
-  std::span<const Pass> passes;             // in execution order of the single-queue serialisation
-  std::span<const Access> accesses;
-  std::span<const Rendering> renderings;
-  std::span<const Attachment> attachments;
-  std::span<const ShaderModule> shaders;
-  std::span<const Pipeline> pipelines;
-  std::span<const Index> pipeline_shaders;
-  std::span<const ColorBlend> blends;
-  std::span<const VertexBinding> vertex_bindings;
-  std::span<const VertexAttribute> vertex_attributes;
-  std::span<const Binding> bindings;
-  std::span<const Sampler> samplers;
-  std::span<const Params> params;
-  std::span<const Index> pass_params;
-  std::span<const Transfer> transfers;
-  std::span<const MipLimit> mip_limits;
-  std::span<const EngineSet> engine_sets;
-  std::span<const std::string_view> conditions;
-  std::span<const Culled> culled;
+  std::string_view variant_name = {};
+  std::span<const Expr> exprs = {};
+  std::span<const Extent> extents = {};
+  std::span<const Resource> resources = {};
+  std::span<const Queue> queues = {};
+  std::span<const Batch> batches = {};
+  std::span<const Step> steps = {};
+  std::span<const Wait> waits = {};
+  std::span<const Signal> signals = {};
+  std::span<const BarrierGroup> groups = {};
+  std::span<const MemoryBarrier> memory_barriers = {};
+  std::span<const ImageBarrier> image_barriers = {};
+  std::span<const BufferBarrier> buffer_barriers = {};
+  std::span<const Boundary> entry = {}, exit = {};
+  std::span<const Acquire> acquires = {};
+  std::span<const Release> releases = {};
+  std::span<const AliasPair> alias_pairs = {};
+  std::span<const Pass> passes = {};             // in execution order of the single-queue serialisation
+  std::span<const Access> accesses = {};
+  std::span<const Rendering> renderings = {};
+  std::span<const Attachment> attachments = {};
+  std::span<const ShaderModule> shaders = {};
+  std::span<const Pipeline> pipelines = {};
+  std::span<const Index> pipeline_shaders = {};
+  std::span<const ColorBlend> blends = {};
+  std::span<const VertexBinding> vertex_bindings = {};
+  std::span<const VertexAttribute> vertex_attributes = {};
+  std::span<const Binding> bindings = {};
+  std::span<const Sampler> samplers = {};
+  std::span<const Params> params = {};
+  std::span<const Index> pass_params = {};
+  std::span<const Transfer> transfers = {};
+  std::span<const MipLimit> mip_limits = {};
+  std::span<const EngineSet> engine_sets = {};
+  std::span<const std::string_view> conditions = {};
+  std::span<const Culled> culled = {};
   uint64_t estimated_heap_bytes = 0;
 };
 
