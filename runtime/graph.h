@@ -22,8 +22,8 @@ namespace rg {
 
 // What a callback needs to build its own pipelines and to record. Valid while the instance lives and is not resized.
 struct PassInfo {
-  std::string_view name;
-  std::span<const VkFormat> color_formats;
+  std::string_view name = {};
+  std::span<const VkFormat> color_formats = {};
   VkFormat depth_format = VK_FORMAT_UNDEFINED, stencil_format = VK_FORMAT_UNDEFINED;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   uint32_t view_mask = 0;
@@ -46,22 +46,22 @@ using RecordFunction = void (*)(void* user, Recording& recording);
 
 struct ImportedImage { VkImage image = VK_NULL_HANDLE; VkImageView view = VK_NULL_HANDLE; };  // view: all mips and layers, the declared dimension
 struct ImportedBuffer { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
-struct Import { ImportedImage image; ImportedBuffer buffer; };
+struct Import { ImportedImage image = {}; ImportedBuffer buffer = {}; };
 
 struct FrameInputs {
-  std::span<const Import> imports;                        // by Resource::import_slot
-  std::span<const std::span<const std::byte>> params;     // by index of Plan::params, exactly `bytes` each
+  std::span<const Import> imports = {};                        // by Resource::import_slot
+  std::span<const std::span<const std::byte>> params = {};     // by index of Plan::params, exactly `bytes` each
   RecordFunction const* callbacks = nullptr;              // by Pass::host_slot
   void* user = nullptr;                                   // given to every callback
   uint64_t conditions = 0;                                // bits of Plan::conditions
-  std::span<const std::span<const std::byte>> updates;    // by Transfer::update_slot
-  std::span<const VkDescriptorSet> engine_sets;           // by index of Plan::engine_sets
+  std::span<const std::span<const std::byte>> updates = {};    // by Transfer::update_slot
+  std::span<const VkDescriptorSet> engine_sets = {};           // by index of Plan::engine_sets
 };
 
 struct GraphOptions {
   uint32_t frames_in_flight = 2;          // 1 to 4
-  std::span<const int64_t> extents;       // 3 values an extent; empty: the plan's initial ones
-  std::span<const VkDescriptorSetLayout> engine_set_layouts;  // by index of Plan::engine_sets
+  std::span<const int64_t> extents = {};       // 3 values an extent; empty: the plan's initial ones
+  std::span<const VkDescriptorSetLayout> engine_set_layouts = {};  // by index of Plan::engine_sets
   bool aliasing = true;
   bool poison = false;                    // fills acquired transients with a pattern
   bool debug_readback = false;            // adds transfer usage so that dump() works
