@@ -75,19 +75,15 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-// glslang repeats itself and counts; what is left is one message a line.
+// The first error only: what follows is mostly its consequence.
 std::vector<ShaderMessage> parse_log(const std::string& log, const std::set<std::string>& names) {
-  std::vector<ShaderMessage> messages;
   std::istringstream stream(log);
   for (std::string line; std::getline(stream, line);) {
-    line = trimmed(line);
     constexpr std::string_view kError = "ERROR: ";
-    if (!line.starts_with(kError) || line.find("compilation terminated") != std::string::npos || line.find("compilation errors") != std::string::npos) continue;
-    ShaderMessage message = place(std::string_view(line).substr(kError.size()), names);
-    const auto same_line = [&](const ShaderMessage& m) { return m.file == message.file && m.line == message.line; };
-    if (std::none_of(messages.begin(), messages.end(), same_line)) messages.push_back(std::move(message));
+    line = trimmed(line);
+    if (line.starts_with(kError)) return {place(std::string_view(line).substr(kError.size()), names)};
   }
-  return messages;
+  return {{"", 0, "the shader compiler failed without a message"}};
 }
 
 void configure(glslang::TShader& shader, dsl::Stage stage) {
@@ -107,7 +103,8 @@ FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const 
   const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
 
   glslang::TShader shader(language(stage));
-  shader.setStringsWithLengthsAndNames(texts, lengths, labels, 2);
+  const int skipped = prelude.empty() ? 1 : 0;
+  shader.setStringsWithLengthsAndNames(texts + skipped, lengths + skipped, labels + skipped, 2 - skipped);
   configure(shader, stage);
   Includer includer(sources, names);
   FrontEndOutput output;

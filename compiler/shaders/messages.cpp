@@ -26,7 +26,7 @@ std::string restyle(const std::string& message) {
   const std::string word = quoted_word(message);
   const size_t colon = message.find("' : ");
   if (colon == std::string::npos) return message;
-  const std::string rest = message.substr(colon + 4);
+  const std::string rest = message.substr(message.find_first_not_of(' ', colon + 3));
   return word.empty() ? rest : "`" + word + "`: " + rest;
 }
 
