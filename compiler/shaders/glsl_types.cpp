@@ -2,22 +2,10 @@
 
 #include <map>
 
+#include "dsl/format_table.h"
+
 namespace rg::compiler {
 namespace {
-
-struct FormatRow {
-  uint32_t vulkan, aspects;
-  char numeric;  // F N M U I B G, as in format.def
-};
-
-constexpr FormatRow kFormats[] = {
-    {0, 0, 'F'},
-#define RG_FORMAT(name, value, kind, bytes, width, height, aspects, numeric) {value, aspects, #numeric[0]},
-#include "dsl/format.def"
-#undef RG_FORMAT
-};
-
-const FormatRow& row(dsl::Format format) { return kFormats[static_cast<size_t>(format)]; }
 
 const char* scalar_name(dsl::Scalar scalar) {
   switch (scalar) {
@@ -74,13 +62,10 @@ std::string glsl_image_format(dsl::Format format) {
 }
 
 char texel_kind(dsl::Format format, uint32_t aspects) {
-  const FormatRow& formats = row(format);
-  if ((formats.aspects & 6) != 0) return aspects == 4 || formats.aspects == 4 ? 'u' : 'f';
-  if (formats.numeric == 'U') return 'u';
-  return formats.numeric == 'I' ? 'i' : 'f';
+  const dsl::FormatInfo& info = dsl::info(format);
+  if (!info.is_color()) return aspects == dsl::aspect_stencil || info.aspects == dsl::aspect_stencil ? 'u' : 'f';
+  if (info.numeric == dsl::Numeric::uint) return 'u';
+  return info.numeric == dsl::Numeric::sint ? 'i' : 'f';
 }
-
-uint32_t format_aspects(dsl::Format format) { return row(format).aspects; }
-uint32_t vulkan_format(dsl::Format format) { return row(format).vulkan; }
 
 }  // namespace rg::compiler

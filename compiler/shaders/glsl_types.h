@@ -17,8 +17,5 @@ std::string glsl_variable(const dsl::Program& program, const dsl::Type& type, co
 std::string glsl_image_format(dsl::Format format);
 // What a texel reads as: 'f' float, 'u' unsigned, 'i' signed. `aspects` picks depth (2) or stencil (4) of a combined format.
 char texel_kind(dsl::Format format, uint32_t aspects);
-// Aspect bits of the format: 1 colour, 2 depth, 4 stencil.
-uint32_t format_aspects(dsl::Format format);
-uint32_t vulkan_format(dsl::Format format);  // VkFormat
 
 }  // namespace rg::compiler

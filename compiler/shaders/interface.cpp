@@ -5,6 +5,7 @@
 #include <set>
 
 #include "compiler/shaders/glsl_types.h"
+#include "dsl/format_table.h"
 
 namespace rg::compiler {
 namespace {
@@ -175,7 +176,7 @@ bool is_fullscreen(const dsl::Pass& pass) {
 }
 
 ViewShape view_shape(const dsl::Resource& image, const dsl::Access& access) {
-  ViewShape shape{image.dimension, false, format_aspects(image.format)};
+  ViewShape shape{image.dimension, false, dsl::info(image.format).aspects};
   if (access.range.aspects != 0) shape.aspects = access.range.aspects;
   if ((shape.aspects & 6) == 6) shape.aspects = 2;
   const uint32_t layers = access.range.layers == dsl::kAll ? image.layers - std::min(access.range.layer, image.layers) : access.range.layers;

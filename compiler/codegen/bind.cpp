@@ -1,0 +1,274 @@
+#include "compiler/codegen/bind.h"
+
+#include <algorithm>
+#include <map>
+
+#include "compiler/expressions.h"
+#include "compiler/shaders/interface.h"
+#include "dsl/check_macro.h"
+
+namespace rg::compiler {
+namespace {
+
+// ---- fixed-function state, the program's words to Vulkan's numbers
+
+BlendFactor convert(dsl::BlendFactor factor) {
+  switch (factor) {
+    case dsl::BlendFactor::zero: return BlendFactor::zero;
+    case dsl::BlendFactor::one: return BlendFactor::one;
+    case dsl::BlendFactor::src_alpha: return BlendFactor::src_alpha;
+    case dsl::BlendFactor::one_minus_src_alpha: return BlendFactor::one_minus_src_alpha;
+    case dsl::BlendFactor::dst_alpha: return BlendFactor::dst_alpha;
+    case dsl::BlendFactor::one_minus_dst_alpha: return BlendFactor::one_minus_dst_alpha;
+    case dsl::BlendFactor::src_color: return BlendFactor::src_color;
+    case dsl::BlendFactor::one_minus_src_color: return BlendFactor::one_minus_src_color;
+    case dsl::BlendFactor::dst_color: return BlendFactor::dst_color;
+    case dsl::BlendFactor::one_minus_dst_color: return BlendFactor::one_minus_dst_color;
+  }
+  return BlendFactor::zero;
+}
+
+ColorBlend convert(const dsl::Blend& blend) {
+  const auto op = static_cast<BlendOp>(blend.op);
+  return {blend.enabled, convert(blend.src), convert(blend.dst), op, convert(blend.src_alpha), convert(blend.dst_alpha), op};
+}
+
+uint8_t convert(dsl::Topology topology) {
+  switch (topology) {
+    case dsl::Topology::points: return 0;
+    case dsl::Topology::lines: return 1;
+    case dsl::Topology::triangles: return 3;
+    case dsl::Topology::triangle_strip: return 4;
+  }
+  return 3;
+}
+
+bool may_write_depth(const dsl::Pass& pass) {
+  return std::any_of(pass.accesses.begin(), pass.accesses.end(),
+                     [](const dsl::Access& access) { return access.role == dsl::Role::depth && access.mode != dsl::Mode::read; });
+}
+
+RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
+  const dsl::State state = pass.state.valid() ? program.states[pass.state] : dsl::State{};
+  RasterState raster;
+  // The generated triangle has one side.
+  raster.cull = is_fullscreen(pass) ? 0 : static_cast<uint8_t>(state.cull);
+  raster.front_clockwise = state.front_clockwise;
+  raster.depth_test = state.depth_test;
+  raster.depth_write = state.depth_write && state.depth_test && may_write_depth(pass);
+  raster.depth_compare = static_cast<Compare>(state.depth_compare);
+  raster.depth_bias_constant = state.depth_bias_constant;
+  raster.depth_bias_slope = state.depth_bias_slope;
+  raster.topology = is_fullscreen(pass) ? convert(dsl::Topology::triangles) : convert(state.topology);
+  raster.alpha_to_coverage = state.alpha_to_coverage;
+  return raster;
+}
+
+Sampler convert(const dsl::Sampler& sampler) {
+  Sampler row;
+  row.name = intern(sampler.name);
+  row.linear = sampler.filter == dsl::Filter::linear;
+  row.mip_linear = sampler.mip_filter == dsl::Filter::linear;
+  row.address = static_cast<uint8_t>(sampler.address);  // both count repeat, mirror, clamp, border
+  row.compare_enabled = sampler.compare.has_value();
+  row.compare = sampler.compare ? static_cast<Compare>(*sampler.compare) : Compare::never;
+  row.max_anisotropy = sampler.max_anisotropy;
+  return row;
+}
+
+// ---- vertex input
+
+Format vertex_format(const dsl::Type& type) {
+  constexpr uint32_t kUint[] = {98, 101, 104, 107}, kInt[] = {99, 102, 105, 108}, kFloat[] = {100, 103, 106, 109};
+  const size_t last = type.rows - 1;
+  if (type.scalar == dsl::Scalar::f32) return static_cast<Format>(kFloat[last]);
+  return static_cast<Format>(type.scalar == dsl::Scalar::i32 ? kInt[last] : kUint[last]);
+}
+
+uint32_t column_bytes(const dsl::Type& type) { return type.columns == 1 ? 4u * type.rows : type.rows == 2 ? 8u : 16u; }
+
+// One location a column of each array element, as GLSL counts them.
+void add_attributes(PlanData& plan, const dsl::Field& field, uint32_t binding, uint32_t& location) {
+  const uint32_t columns = field.type.columns * std::max(field.type.count, 1u);
+  const uint32_t stride = field.type.count > 0 && field.type.columns == 1 && field.type.rows == 3 ? 16 : column_bytes(field.type);
+  for (uint32_t i = 0; i < columns; ++i)
+    plan.vertex_attributes.push_back({location++, binding, field.offset430 + i * stride, vertex_format(field.type)});
+}
+
+void add_vertex_input(PlanData& plan, Pipeline& pipeline, const dsl::Program& program, const dsl::Pass& pass) {
+  pipeline.first_vertex_binding = static_cast<Index>(plan.vertex_bindings.size());
+  pipeline.first_vertex_attribute = static_cast<Index>(plan.vertex_attributes.size());
+  uint32_t location = 0;
+  for (uint32_t binding = 0; binding < pass.draw.vertex.size(); ++binding) {
+    const dsl::Struct& record = program.structs[pass.draw.vertex[binding]];
+    plan.vertex_bindings.push_back({record.size430, false});
+    for (const dsl::Field& field : record.fields) add_attributes(plan, field, binding, location);
+  }
+  pipeline.vertex_binding_count = static_cast<uint32_t>(plan.vertex_bindings.size()) - pipeline.first_vertex_binding;
+  pipeline.vertex_attribute_count = static_cast<uint32_t>(plan.vertex_attributes.size()) - pipeline.first_vertex_attribute;
+}
+
+// ---- one pass
+
+struct Binder {
+  PlanData& plan;
+  const dsl::Program& program;
+  const dsl::Graph& graph;
+  const ShaderBundle& bundle;
+  std::map<uint32_t, Index> plan_resource;  // by program resource
+  std::map<size_t, Index> plan_shader;      // by bundle shader
+};
+
+// The layout the planner gave this image in this pass.
+Layout layout_of(const Binder& b, const Pass& pass, const Binding& binding) {
+  Layout layout = Layout::undefined;
+  const auto end_of = [](uint32_t first, uint32_t count) { return count == kRemaining ? UINT32_MAX : first + count; };
+  const auto overlaps = [&](uint32_t a, uint32_t na, uint32_t b0, uint32_t nb) { return a < end_of(b0, nb) && b0 < end_of(a, na); };
+  for (Index i = pass.first_access; i < pass.first_access + pass.access_count; ++i) {
+    const Access& access = b.plan.accesses[i];
+    const bool same = access.ref == binding.ref && (access.range.aspects & binding.range.aspects) != 0 &&
+                      overlaps(access.range.mip, access.range.mips, binding.range.mip, binding.range.mips) &&
+                      overlaps(access.range.layer, access.range.layers, binding.range.layer, binding.range.layers);
+    if (same && access.layout != Layout::undefined) layout = access.layout;
+  }
+  RG_CHECK(layout != Layout::undefined, "an image bound to a shader has no layout in its pass");
+  return layout;
+}
+
+DescriptorType descriptor_type(BindingKind kind) {
+  switch (kind) {
+    case BindingKind::combined_sampler: return DescriptorType::combined_image_sampler;
+    case BindingKind::texture: return DescriptorType::sampled_image;
+    case BindingKind::storage_image: return DescriptorType::storage_image;
+    case BindingKind::storage_buffer: return DescriptorType::storage_buffer;
+    case BindingKind::uniform_buffer: return DescriptorType::uniform_buffer;
+    case BindingKind::params: return DescriptorType::uniform_buffer_dynamic;
+  }
+  return DescriptorType::sampled_image;
+}
+
+void bind_resource(const Binder& b, const Pass& pass, const dsl::Access& access, Binding& binding) {
+  const dsl::Resource& resource = b.graph.resources[access.resource];
+  binding.ref = {b.plan_resource.at(access.resource.value), access.age};
+  if (resource.kind == dsl::ResourceKind::buffer) {
+    binding.bytes = {index_of(access.range.offset), index_of(access.range.size)};
+    return;
+  }
+  const ViewShape view = view_shape(resource, access);
+  binding.range = {view.aspects, access.range.mip, access.range.mips, access.range.layer, access.range.layers};
+  binding.view = static_cast<Dimension>(view.dimension);
+  binding.arrayed = view.arrayed;
+  binding.layout = layout_of(b, pass, binding);
+  if (access.sampler.valid()) binding.sampler = access.sampler.value;
+}
+
+void add_bindings(Binder& b, Pass& pass, const dsl::Pass& source, const PassShaders& shaders) {
+  pass.first_binding = static_cast<Index>(b.plan.bindings.size());
+  pass.first_params = static_cast<Index>(b.plan.pass_params.size());
+  for (const InterfaceBinding& interface : pass_bindings(b.program, b.graph, source)) {
+    Binding binding;
+    binding.binding = interface.binding;
+    binding.type = descriptor_type(interface.kind);
+    if (interface.kind == BindingKind::params) {
+      binding.stages = shaders.params_stages[interface.params];
+      binding.params = source.params[interface.params].value;
+      b.plan.pass_params.push_back(binding.params);
+    } else {
+      binding.stages = shaders.access_stages[interface.access];
+      bind_resource(b, pass, source.accesses[interface.access], binding);
+    }
+    b.plan.bindings.push_back(binding);
+  }
+  pass.binding_count = static_cast<uint32_t>(b.plan.bindings.size()) - pass.first_binding;
+  pass.params_count = static_cast<uint32_t>(b.plan.pass_params.size()) - pass.first_params;
+}
+
+Index add_shader(Binder& b, size_t shader) {
+  const auto [at, is_new] = b.plan_shader.try_emplace(shader, static_cast<Index>(b.plan.shaders.size()));
+  if (is_new) {
+    const CompiledShader& compiled = b.bundle.shaders[shader];
+    b.plan.shaders.push_back({intern(compiled.name), static_cast<ShaderStage>(compiled.stage), compiled.words});
+  }
+  return at->second;
+}
+
+Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const PassShaders& shaders) {
+  if (shaders.shaders.empty()) return kNone;
+  Pipeline pipeline;
+  pipeline.name = b.plan.passes[pass_index].name;
+  pipeline.pass = pass_index;
+  pipeline.first_shader = static_cast<Index>(b.plan.pipeline_shaders.size());
+  for (const size_t shader : shaders.shaders) b.plan.pipeline_shaders.push_back(add_shader(b, shader));
+  pipeline.shader_count = static_cast<uint32_t>(shaders.shaders.size());
+  if (source.kind == dsl::PassKind::raster) {
+    pipeline.raster = raster_state(b.program, source);
+    pipeline.first_blend = static_cast<Index>(b.plan.blends.size());
+    for (const dsl::Access& access : source.accesses)
+      if (access.role == dsl::Role::color) b.plan.blends.push_back(convert(access.blend));
+    pipeline.blend_count = static_cast<uint32_t>(b.plan.blends.size()) - pipeline.first_blend;
+    add_vertex_input(b.plan, pipeline, b.program, source);
+  }
+  b.plan.pipelines.push_back(pipeline);
+  return static_cast<Index>(b.plan.pipelines.size() - 1);
+}
+
+Index engine_set_index(const dsl::Program& program, const dsl::Pass& pass) {
+  const dsl::EngineSet* set = engine_set_of(program, pass);
+  return set == nullptr ? kNone : static_cast<Index>(set - program.engine_sets.rows.data());
+}
+
+void bind_pass(Binder& b, Index index) {
+  Pass& pass = b.plan.passes[index];
+  pass.pipeline = pass.engine_set = kNone;
+  pass.first_binding = pass.binding_count = pass.first_params = pass.params_count = pass.push_bytes = pass.push_stages = 0;
+  const uint32_t program_pass = b.plan.program_pass[index];
+  // A clear in front of a pass may name that pass as its origin, but runs none of its shaders.
+  if (program_pass == kNone || pass.kind == PassKind::transfer || pass.kind == PassKind::host) return;
+  const dsl::Pass& source = b.graph.passes.rows[program_pass];
+  const PassShaders& shaders = b.bundle.passes[program_pass];
+  add_bindings(b, pass, source, shaders);
+  pass.pipeline = add_pipeline(b, index, source, shaders);
+  pass.engine_set = engine_set_index(b.program, source);
+  if (!source.draw.per_draw.valid()) return;
+  pass.push_bytes = b.program.structs[source.draw.per_draw].size430;
+  pass.push_stages = shaders.push_stages;
+}
+
+void clear_tables(PlanData& plan) {
+  plan.shaders.clear();
+  plan.pipelines.clear();
+  plan.pipeline_shaders.clear();
+  plan.blends.clear();
+  plan.vertex_bindings.clear();
+  plan.vertex_attributes.clear();
+  plan.bindings.clear();
+  plan.samplers.clear();
+  plan.params.clear();
+  plan.pass_params.clear();
+  plan.engine_sets.clear();
+}
+
+SetRole set_role(uint32_t set) {
+  RG_CHECK(set != 1 && set <= 3, "an engine set has a number that is not the engine's");
+  return static_cast<SetRole>(set);
+}
+
+}  // namespace
+
+void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle) {
+  const dsl::Graph& graph = program.graphs[graph_id];
+  RG_CHECK(plan.program_pass.size() == plan.passes.size(), "the plan does not say which pass of the program each pass is");
+  clear_tables(plan);
+  Binder b{plan, program, graph, bundle, {}, {}};
+  for (uint32_t i = 0; i < plan.program_resource.size(); ++i) b.plan_resource.emplace(plan.program_resource[i], i);
+  for (const dsl::Sampler& sampler : program.samplers) plan.samplers.push_back(convert(sampler));
+  for (const dsl::EngineSet& set : program.engine_sets) plan.engine_sets.push_back({intern(set.name), set_role(set.set)});
+  for (const dsl::Params& params : graph.params) plan.params.push_back({intern(params.name), program.structs[params.type].size140, kNone});
+  for (Index i = 0; i < plan.passes.size(); ++i) bind_pass(b, i);
+  for (Index i = 0; i < plan.passes.size(); ++i)
+    for (size_t p = 0; p < graph.params.size(); ++p)
+      if (plan.program_pass[i] != kNone && graph.params.rows[p].pass == dsl::PassId{plan.program_pass[i]} && plan.passes[i].params_count > 0)
+        plan.params[p].pass = i;
+}
+
+}  // namespace rg::compiler
