@@ -1,0 +1,45 @@
+// What a benchmark gives: rows of name, value, unit and, where there is something to compare with, a reference.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rg::bench {
+
+struct Row {
+  std::string name;  // "planner/G1/heap"
+  double value = 0;
+  std::string unit;  // ms us MB count
+  std::optional<double> reference;
+  std::string note;  // what the reference is
+};
+using Rows = std::vector<Row>;
+
+// Graphs as .rg files are read from `graphs`; see bench/README.md for how ./x bench makes them.
+Rows bench_planner(const std::string& graphs);
+Rows bench_front_end(const std::string& graphs);
+Rows bench_checker(const std::string& graphs);
+Rows bench_executor(const std::string& graphs);
+
+// Median of `runs` wall-clock times of `work`, in milliseconds; the first run warms up and is not counted.
+template <class Work>
+double median_ms(int runs, Work work);
+
+}  // namespace rg::bench
+
+#include <algorithm>
+#include <chrono>
+
+template <class Work>
+double rg::bench::median_ms(int runs, Work work) {
+  std::vector<double> times;
+  for (int run = 0; run <= runs; ++run) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
+    if (run > 0) times.push_back(took.count());
+  }
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
