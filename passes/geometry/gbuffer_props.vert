@@ -13,8 +13,7 @@ void main() {
   vec3 local_normal = octahedral_decode(unpackUnorm2x16(normal));
   gl_Position = camera.world_to_clip * vec4(world, 1.0);
   out_normal = vec4(swing_point(local_normal, part, per_draw.swing), 0.0) * per_draw.model;
-  vec4 rgba = unpackUnorm4x8(color);
-  out_color = vec4(rgba.rgb * per_draw.tint, rgba.a);
+  out_color = vec4(unpackUnorm4x8(color).rgb * per_draw.tint, per_draw.sky);
   out_surface = unpackUnorm4x8(surface).rgb;
   out_now = camera.steady_to_clip * vec4(world, 1.0);
   out_before = camera.previous_to_clip * vec4(place_prop(per_draw.previous, swing_point(position, part, per_draw.swing)), 1.0);

@@ -40,8 +40,8 @@ struct Material {
   base_color:   vec4               // alpha: opacity of glass
   emissive:     vec3
   roughness:    f32
-  metallic:     f32
-  bump:         f32                // strength of the normal map
+  metallic:     f32                // of glass: the share of the sky that it mirrors
+  bump:         f32                // strength of the normal map; of glass: of its ripples
   albedo_layer: u32                // 0 is white
   surface_layer: u32               // 0 is flat, rough and not metallic; rg normal, b roughness, a metallic
 }
@@ -56,7 +56,7 @@ struct Vertex {                    // layout 1: the world, pulled from a storage
 struct PropVertex {                // layout 2: props, read as vertex attributes
   position:     vec3
   normal:       u32                // octahedral, 2 x unorm16
-  color:        u32                // rgba8, a: share of the sky that is seen
+  color:        u32                // rgba8
   surface:      u32                // rgba8: roughness, metallic, emission / 8
   part:         u32                // 0 still, 1 swings with its prop
   spare:        u32
