@@ -1,0 +1,2 @@
+module other
+import "frame.rg"

@@ -1,0 +1,2 @@
+module small
+import "outside.rg"

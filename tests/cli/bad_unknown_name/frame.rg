@@ -1,0 +1,10 @@
+module small
+extent view = runtime(64, 64) max(128, 128)
+
+graph frame(surface backbuffer: rgba8 view after copy_src)
+{
+  pass tone_map : raster {
+    read nothing as sampled in fragment
+    color backbuffer covers
+  }
+}

@@ -1,0 +1,59 @@
+#include "compiler/commands/command.h"
+
+#include <gtest/gtest.h>
+
+#include "compiler/commands/facts.h"
+
+namespace rg::commands {
+namespace {
+
+TEST(Command, CountsInWords) {
+  EXPECT_EQ(counted(1, "pass", "passes"), "1 pass");
+  EXPECT_EQ(counted(0, "pass", "passes"), "0 passes");
+  EXPECT_EQ(counted(3, "barrier"), "3 barriers");
+}
+
+TEST(Command, NearestIsTheOneMeantOrNone) {
+  const std::vector<std::string> names = {"tone_map", "light_cull", "bloom_down[0]"};
+  EXPECT_EQ(nearest("tonemap", names), "tone_map");
+  EXPECT_EQ(nearest("light_cul", names), "light_cull");
+  EXPECT_EQ(nearest("shadow", names), std::nullopt);
+  EXPECT_EQ(nearest("x", {}), std::nullopt);
+}
+
+TEST(Facts, NamesAreThoseOfVulkan) {
+  EXPECT_EQ(stage_names(stage::compute_shader | stage::fragment_shader), "FRAGMENT_SHADER|COMPUTE_SHADER");
+  EXPECT_EQ(stage_names(0), "NONE");
+  EXPECT_EQ(access_names(access::shader_storage_write), "SHADER_STORAGE_WRITE");
+  EXPECT_EQ(layout_name(Layout::depth_read_only), "DEPTH_READ_ONLY");
+  EXPECT_EQ(tag_name(BarrierTag::alias_pair), "alias pair");
+}
+
+TEST(Facts, CountsWhatAPlanHolds) {
+  dsl::Program program;
+  program.graphs.add({});
+  compiler::FramePlan frame;
+  frame.plan.passes.resize(3);
+  frame.plan.culled.resize(1);
+  frame.plan.groups.resize(3);
+  frame.plan.groups[0].image_count = 2;
+  frame.plan.groups[2].memory_count = 1;
+  frame.plan.image_barriers.resize(2);
+  frame.plan.memory_barriers.push_back({stage::all_commands, 0, stage::host, access::host_read});
+  frame.plan.batches.resize(1);
+  frame.heap_bytes = 10, frame.unaliased_bytes = 20, frame.lower_bound_bytes = 9;
+  frame.phase_ms = {{"cull", 1.5}, {"order", 2.5}};
+  compiler::CompiledGraph graph;
+  graph.graph = dsl::GraphId{0};
+  graph.plans.push_back(frame);
+  const nlohmann::ordered_json json = to_json(find_facts(program, graph, graph.plans[0]));
+  EXPECT_EQ(json["passes"], (nlohmann::ordered_json{{"live", 3}, {"culled", 1}}));
+  EXPECT_EQ(json["memory"], (nlohmann::ordered_json{{"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}}));
+  EXPECT_EQ(json["barriers"], (nlohmann::ordered_json{{"calls", 2}, {"barriers", 3}, {"all_commands", 1}}));
+  EXPECT_EQ(json["queues"], (nlohmann::ordered_json{{"submits", 1}, {"waits", 0}}));
+  EXPECT_EQ(json["variants"], (nlohmann::ordered_json{{"plans", 1}, {"shaders", 0}}));
+  EXPECT_EQ(json["time_ms"]["plan"], 4.0);
+}
+
+}  // namespace
+}  // namespace rg::commands
