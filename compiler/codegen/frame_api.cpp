@@ -1,0 +1,134 @@
+#include "compiler/codegen/frame_api.h"
+
+#include <algorithm>
+#include <map>
+
+#include "dsl/check_macro.h"
+
+namespace rg::compiler {
+namespace {
+
+void name_members(std::vector<ApiMember>& members) {
+  std::vector<std::string> names;
+  for (const ApiMember& member : members) names.push_back(cpp_name(member.name));
+  names = distinct(std::move(names));
+  for (size_t i = 0; i < members.size(); ++i) members[i].name = names[i];
+}
+
+template <class Row>
+void put(std::vector<Row>& rows, Index slot, Row row) {
+  if (rows.size() <= slot) rows.resize(slot + 1);
+  rows[slot] = std::move(row);
+}
+
+struct Source {
+  const dsl::Program& program;
+  const dsl::Graph& graph;
+  const PlanData& plan;
+  const dsl::SourceFiles& files;
+  const std::vector<StructUse>& uses;
+  std::string where(dsl::Span span) const { return origin(files, span); }
+};
+
+std::vector<ApiMember> collect_imports(const Source& s) {
+  std::vector<ApiMember> imports;
+  for (const Resource& resource : s.plan.resources) {
+    if (resource.import_slot == kNone) continue;
+    const char* type = resource.kind == ResourceKind::image ? "rg::ImportedImage" : "rg::ImportedBuffer";
+    put(imports, resource.import_slot, {std::string(resource.name), std::string("rg::Required<") + type + ">", origin(s.files, resource.file, resource.line)});
+  }
+  for (const ApiMember& import : imports) RG_CHECK(!import.name.empty(), "an import slot belongs to no resource");
+  name_members(imports);
+  return imports;
+}
+
+std::vector<ApiMember> collect_params(const Source& s) {
+  std::vector<ApiMember> params;
+  for (const dsl::Params& block : s.graph.params) {
+    const std::string owner = block.pass.valid() ? s.graph.passes[block.pass].name + "_" : "";
+    params.push_back({owner + block.name, mirror_name(s.program, s.uses, block.type, true), s.where(block.span)});
+  }
+  name_members(params);
+  return params;
+}
+
+// The program keeps the name of the host's bytes; plan and program list a pass's updates in the same order.
+std::vector<ApiMember> collect_updates(const Source& s) {
+  std::vector<ApiMember> updates;
+  for (size_t p = 0; p < s.plan.passes.size(); ++p) {
+    const Pass& pass = s.plan.passes[p];
+    if (s.plan.program_pass[p] == kNone) continue;
+    const dsl::Pass& source = s.graph.passes.rows[s.plan.program_pass[p]];
+    std::vector<const dsl::Transfer*> written;
+    for (const dsl::Transfer& transfer : source.transfers)
+      if (transfer.kind == dsl::TransferKind::update) written.push_back(&transfer);
+    size_t next = 0;
+    for (Index t = pass.work.first_transfer; t < pass.work.first_transfer + pass.work.transfer_count; ++t) {
+      const Transfer& transfer = s.plan.transfers[t];
+      if (transfer.update_slot == kNone) continue;
+      const std::string name = next < written.size() && !written[next]->data.empty() ? written[next]->data : source.name;
+      ++next;
+      put(updates, transfer.update_slot, {name, "std::span<const std::byte>", s.where(source.span)});
+    }
+  }
+  name_members(updates);
+  return updates;
+}
+
+std::vector<ApiPass> collect_passes(const Source& s, const PlanNames& names) {
+  std::vector<ApiPass> passes;
+  for (size_t p = 0; p < s.plan.passes.size(); ++p) {
+    const Pass& pass = s.plan.passes[p];
+    if (pass.host_slot == kNone) continue;
+    ApiPass row;
+    row.method = names.passes[p];
+    row.type = cpp_type_name(names.passes[p]) + "Pass";
+    row.comment = origin(s.files, pass.file, pass.line);
+    row.raster = pass.kind == PassKind::raster;
+    row.compute = pass.kind == PassKind::compute;
+    row.push_stages = pass.push_stages;
+    if (pass.push_bytes > 0 && s.plan.program_pass[p] != kNone) {
+      const dsl::Pass& source = s.graph.passes.rows[s.plan.program_pass[p]];
+      row.push_type = mirror_name(s.program, s.uses, source.draw.per_draw, false);
+    }
+    put(passes, pass.host_slot, std::move(row));
+  }
+  return passes;
+}
+
+std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& names) {
+  std::vector<ApiReadback> readbacks;
+  for (size_t r = 0; r < s.plan.resources.size(); ++r) {
+    if (s.plan.resources[r].lifetime != Lifetime::readback) continue;
+    const dsl::Resource& source = s.graph.resources.rows[s.plan.program_resource[r]];
+    readbacks.push_back({names.resources[r], names.resources[r], mirror_type(s.program, s.uses, source.element, false), s.where(source.span)});
+  }
+  return readbacks;
+}
+
+}  // namespace
+
+FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const FramePlan& frame, const dsl::SourceFiles& files) {
+  const dsl::Graph& graph = program.graphs[graph_id];
+  const std::vector<StructUse> uses = find_struct_uses(program);
+  const Source source{program, graph, frame.plan, files, uses};
+  FrameApi api;
+  api.scope = cpp_name(program.module);
+  if (program.graphs.size() > 1) api.scope += "::" + cpp_name(graph.name) + "_graph";
+  api.class_name = cpp_type_name(graph.name);
+  api.names = plan_names(frame.plan.view());
+  for (const Extent& extent : frame.plan.extents)
+    api.extents.push_back({cpp_name(extent.name), extent.axes, {extent.initial[0], extent.initial[1], extent.initial[2]}});
+  api.imports = collect_imports(source);
+  api.params = collect_params(source);
+  api.updates = collect_updates(source);
+  for (const std::string_view condition : frame.plan.conditions) api.conditions.push_back({std::string(condition), "bool", ""});
+  name_members(api.conditions);
+  for (const EngineSet& set : frame.plan.engine_sets) api.engine_sets.push_back({std::string(set.name), "rg::Required<VkDescriptorSet>", ""});
+  name_members(api.engine_sets);
+  api.passes = collect_passes(source, api.names);
+  api.readbacks = collect_readbacks(source, api.names);
+  return api;
+}
+
+}  // namespace rg::compiler
