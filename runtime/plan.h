@@ -171,6 +171,7 @@ struct Boundary {
   Layout layout = Layout::undefined;
   Index queue = kNone;
   bool discard = false;  // contents do not cross the boundary
+  Bytes bytes = {};      // buffers
 };
 
 // ---- passes -------------------------------------------------------------------------------------------------------
