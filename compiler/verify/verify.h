@@ -26,6 +26,7 @@ struct Finding {
 struct VerifyOptions {
   bool irredundancy = true;   // also report atoms whose removal breaks nothing and that carry no tag
   size_t max_findings = 20;
+  std::vector<std::vector<int64_t>> extents = {};  // proved for these too, besides the initial and the maximal ones; 3 values an extent
 };
 
 // `configuration` holds one value a feature; `program_pass[i]` and `program_resource[i]` name the program rows of plan pass and resource i.

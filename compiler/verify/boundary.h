@@ -1,0 +1,32 @@
+// States between frames: what is pending on a cell, and when one such state covers another.
+#pragma once
+
+#include "compiler/verify/sync_state.h"
+
+namespace rg::verify {
+
+// The rows of a boundary that speak of one cell.
+struct Pending {
+  bool stated = false, discard = false;
+  StageSet stages = 0;
+  AccessSet accesses[kStageCount] = {};  // supported ones, by stage
+  Layout layout = Layout::undefined;
+  bool has_writes() const;
+};
+
+// By cell of the model; history copies as at frame 0.
+std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNode>& rows);
+// What an imported resource's declared state leaves pending; `stages` 0 where nothing is.
+Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect);
+
+// A cell as it is when a frame starts in this state.
+CellState state_from(const Pending& pending, uint32_t seen);
+// Empty if every barrier sequence that is right after `pending` is right after `state`; else the reason it is not.
+std::string why_not_covered(const CellState& state, const Pending& pending);
+// Writes the state may not leave behind: what `pending` reads must see them. Empty if all are visible.
+std::string why_not_visible(const CellState& state, const Pending& pending);
+
+// Entry against declared imports, exit of one frame against entry of the next.
+void check_boundaries(const Model& model, Report& report);
+
+}  // namespace rg::verify

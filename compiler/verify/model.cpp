@@ -1,0 +1,394 @@
+#include "compiler/verify/model.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+namespace rg::verify {
+namespace {
+
+using Extents = std::vector<int64_t>;
+
+void add_boxes_of_program(const Input& input, const std::vector<Shape>& shapes, const Extents& extents, std::vector<std::vector<Box>>& boxes) {
+  for (const dsl::Pass& pass : input.graph.passes)
+    for (const dsl::Access& access : pass.accesses) {
+      const Shape& shape = shapes[access.resource.value];
+      boxes[access.resource.value].push_back(box_of(input.program, shape, effective_range(access, shape.aspects), extents));
+    }
+}
+
+void add_ranks(const Partition& partition, const Box& box, std::vector<uint32_t>& ranks) {
+  const auto rank = [&](const std::vector<uint64_t>& cuts, uint64_t at) {
+    ranks.push_back(static_cast<uint32_t>(std::lower_bound(cuts.begin(), cuts.end(), at) - cuts.begin()));
+  };
+  rank(partition.mip_cuts, box.mip_begin), rank(partition.mip_cuts, box.mip_end);
+  rank(partition.layer_cuts, box.layer_begin), rank(partition.layer_cuts, box.layer_end);
+}
+
+struct BoxSink {
+  const Input& input;
+  const std::vector<Shape>& shapes;
+  const Extents& extents;
+  std::vector<std::vector<Box>>& boxes;
+  void add(Ref ref, const Range& range) {
+    const uint32_t resource = input.program_resource[ref.resource];
+    if (shapes[resource].image) boxes[resource].push_back(box_of(shapes[resource], range));
+  }
+  void add(Ref ref, const Bytes& bytes) {
+    const uint32_t resource = input.program_resource[ref.resource];
+    if (!shapes[resource].image) boxes[resource].push_back(box_of(input.plan.exprs, shapes[resource], bytes, extents));
+  }
+};
+
+void add_boxes_of_plan(BoxSink sink) {
+  const Plan& plan = sink.input.plan;
+  for (const ImageBarrier& barrier : plan.image_barriers) sink.add(barrier.image, barrier.range);
+  for (const BufferBarrier& barrier : plan.buffer_barriers) sink.add(barrier.buffer, barrier.bytes);
+  for (const std::span<const Boundary>& rows : {plan.entry, plan.exit})
+    for (const Boundary& boundary : rows) {
+      sink.add(boundary.ref, boundary.range);
+      sink.add(boundary.ref, boundary.bytes);
+    }
+  for (const Attachment& attachment : plan.attachments) sink.add(attachment.ref, attachment.range);
+  for (const Access& row : plan.accesses) {
+    sink.add(row.ref, row.range);
+    sink.add(row.ref, row.bytes);
+  }
+}
+
+std::vector<uint32_t> cells_of(const Model& model, Ref ref, const Range& range) {
+  const Partition& partition = model.resources[model.input->program_resource[ref.resource]].partition;
+  if (!partition.shape.image) return cells_in(partition, Box{1, 0, partition.shape.mips, 0, 1});
+  return cells_in(partition, box_of(partition.shape, range));
+}
+
+void add_resources(Model& model, std::vector<Partition> partitions) {
+  const auto& rows = model.input->graph.resources.rows;
+  model.resources.resize(rows.size());
+  for (uint32_t r = 0; r < rows.size(); ++r) {
+    ResourceNode& node = model.resources[r];
+    node.partition = std::move(partitions[r]);
+    node.copies = rows[r].lifetime == dsl::Lifetime::history ? rows[r].history + 1 : 1;
+    node.first_cell = model.cell_count;
+    model.cell_count += node.copies * node.partition.cell_count();
+    if (rows[r].lifetime == dsl::Lifetime::history) model.history = std::max(model.history, rows[r].history);
+  }
+  for (uint32_t p = 0; p < model.input->plan.resources.size(); ++p) model.resources[model.input->program_resource[p]].plan = p;
+}
+
+template <class Barrier>
+Scope common_scope(const Barrier& barrier, ScopeKind kind, uint32_t index, uint32_t group) {
+  Scope scope;
+  scope.kind = kind;
+  scope.index = index;
+  scope.group = group;
+  scope.tag = barrier.tag;
+  scope.raw_src = barrier.src_stages, scope.raw_dst = barrier.dst_stages;
+  scope.raw_src_accesses = barrier.src_accesses, scope.raw_dst_accesses = barrier.dst_accesses;
+  scope.src = expand_stages(barrier.src_stages), scope.dst = expand_stages(barrier.dst_stages);
+  scope.src_earlier = with_earlier(scope.src), scope.dst_later = with_later(scope.dst);
+  scope.src_accesses = expand_accesses(barrier.src_accesses), scope.dst_accesses = expand_accesses(barrier.dst_accesses);
+  return scope;
+}
+
+void add_scope(Model& model, Scope scope) {
+  GroupNode& group = model.groups.back();
+  group.src_earlier |= scope.src_earlier;
+  group.dst_later |= scope.dst_later;
+  group.has_memory = group.has_memory || scope.kind == ScopeKind::memory;
+  group.scopes.push_back(static_cast<uint32_t>(model.scopes.size()));
+  model.scopes.push_back(std::move(scope));
+}
+
+void add_group(Model& model, const Extents& extents, uint32_t index) {
+  const Plan& plan = model.input->plan;
+  const BarrierGroup& group = plan.groups[index];
+  model.groups.emplace_back();
+  for (uint32_t i = group.first_memory; i < group.first_memory + group.memory_count; ++i)
+    add_scope(model, common_scope(plan.memory_barriers[i], ScopeKind::memory, i, index));
+  for (uint32_t i = group.first_image; i < group.first_image + group.image_count; ++i) {
+    const ImageBarrier& barrier = plan.image_barriers[i];
+    Scope scope = common_scope(barrier, ScopeKind::image, i, index);
+    scope.resource = model.input->program_resource[barrier.image.resource];
+    scope.age = barrier.image.age;
+    scope.cells = cells_of(model, barrier.image, barrier.range);
+    scope.old_layout = barrier.old_layout, scope.new_layout = barrier.new_layout;
+    add_scope(model, std::move(scope));
+  }
+  for (uint32_t i = group.first_buffer; i < group.first_buffer + group.buffer_count; ++i) {
+    const BufferBarrier& barrier = plan.buffer_barriers[i];
+    Scope scope = common_scope(barrier, ScopeKind::buffer, i, index);
+    scope.resource = model.input->program_resource[barrier.buffer.resource];
+    scope.age = barrier.buffer.age;
+    const Partition& partition = model.resources[scope.resource].partition;
+    scope.cells = cells_in(partition, box_of(plan.exprs, partition.shape, barrier.bytes, extents));
+    add_scope(model, std::move(scope));
+  }
+}
+
+// Memory changes hands in the group of the new owner's acquire. Images are rewritten by their transition; buffers are noted here.
+void note_hand_overs(Model& model) {
+  const Plan& plan = model.input->plan;
+  std::vector<bool> takes(plan.resources.size());
+  for (const AliasPair& pair : plan.alias_pairs) takes[pair.after] = true;
+  std::vector<std::vector<uint32_t>> by_group(plan.groups.size());
+  for (uint32_t i = 0; i < plan.acquires.size(); ++i) {
+    const Acquire& acquire = plan.acquires[i];
+    if (acquire.group != kNone && takes[acquire.resource] && plan.resources[acquire.resource].kind == ResourceKind::buffer) by_group[acquire.group].push_back(i);
+  }
+  uint32_t next = 0;
+  for (const Batch& batch : plan.batches)
+    for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s)
+      if (plan.steps[s].kind == StepKind::barriers) model.groups[next++].handed_over = by_group[plan.steps[s].index];
+}
+
+std::vector<BoundaryNode> make_boundaries(const Model& model, const Extents& extents, std::span<const Boundary> rows) {
+  std::vector<BoundaryNode> nodes;
+  for (const Boundary& row : rows) {
+    BoundaryNode node;
+    node.resource = model.input->program_resource[row.ref.resource];
+    node.age = row.ref.age;
+    const Partition& partition = model.resources[node.resource].partition;
+    node.cells = cells_in(partition, partition.shape.image ? box_of(partition.shape, row.range) : box_of(model.input->plan.exprs, partition.shape, row.bytes, extents));
+    node.stages = expand_stages(row.stages);
+    node.accesses = expand_accesses(row.accesses);
+    node.layout = row.layout;
+    node.discard = row.discard;
+    nodes.push_back(std::move(node));
+  }
+  return nodes;
+}
+
+// ---- passes -----------------------------------------------------------------------------------------------------
+
+void for_each_attachment(const Plan& plan, const Rendering& rendering, auto visit) {
+  for (uint32_t i = 0; i < rendering.color_count; ++i) visit(plan.attachments[rendering.first_color + i]);
+  if (rendering.depth != kNone) visit(plan.attachments[rendering.depth]);
+  if (rendering.stencil != kNone) visit(plan.attachments[rendering.stencil]);
+}
+
+// The attachment row that serves `access`, with its role among colour, depth and stencil.
+const Attachment* find_attachment(const Model& model, const Pass& pass, const dsl::Access& access) {
+  const Plan& plan = model.input->plan;
+  if (pass.rendering == kNone) return nullptr;
+  const Rendering& rendering = plan.renderings[pass.rendering];
+  const auto serves = [&](const Attachment& row) {
+    if (model.input->program_resource[row.ref.resource] != access.resource.value || row.ref.age != access.age) return false;
+    const Shape& shape = model.resources[access.resource.value].partition.shape;
+    dsl::Range wanted = effective_range(access, shape.aspects);
+    Box box = box_of(model.input->program, shape, wanted, {}), planned = box_of(shape, row.range);
+    planned.aspects = box.aspects = 0;
+    return box == planned;
+  };
+  if (access.role == dsl::Role::stencil) return rendering.stencil != kNone && serves(plan.attachments[rendering.stencil]) ? &plan.attachments[rendering.stencil] : nullptr;
+  if (access.role != dsl::Role::color) return rendering.depth != kNone && serves(plan.attachments[rendering.depth]) ? &plan.attachments[rendering.depth] : nullptr;
+  for (uint32_t i = 0; i < rendering.color_count; ++i)
+    if (serves(plan.attachments[rendering.first_color + i])) return &plan.attachments[rendering.first_color + i];
+  return nullptr;
+}
+
+struct PlanRow { std::vector<uint32_t> cells; const Access* row = nullptr; uint32_t resource = 0; };
+
+std::vector<PlanRow> rows_of(const Model& model, const Pass& pass, const Extents& extents) {
+  std::vector<PlanRow> rows;
+  for (uint32_t i = pass.first_access; i < pass.first_access + pass.access_count; ++i) {
+    const Access& row = model.input->plan.accesses[i];
+    const uint32_t resource = model.input->program_resource[row.ref.resource];
+    const Partition& partition = model.resources[resource].partition;
+    const Box box = partition.shape.image ? box_of(partition.shape, row.range) : box_of(model.input->plan.exprs, partition.shape, row.bytes, extents);
+    rows.push_back({cells_in(partition, box), &row, resource});
+  }
+  return rows;
+}
+
+const Access* row_for(const std::vector<PlanRow>& rows, const Use& use, uint32_t cell) {
+  for (const PlanRow& row : rows)
+    if (row.resource == use.resource && row.row->ref.age == use.age && std::binary_search(row.cells.begin(), row.cells.end(), cell)) return row.row;
+  return nullptr;
+}
+
+struct PassContext {
+  Model& model;
+  const Extents& extents;
+  Report& report;
+};
+
+void report_pass(const PassContext& context, Hazard hazard, const PassNode& node, uint32_t resource, const std::string& text) {
+  const std::string pass = context.model.pass_name(node.plan_pass), name = context.model.resource(resource).name;
+  context.report.add({hazard, name, pass, "", "`" + pass + "` and `" + name + "`: " + text});
+}
+
+// Takes layouts from the plan's rows and demands that the rows name what the access does.
+void take_rows(const PassContext& context, PassNode& node, Use& use, const std::vector<PlanRow>& rows) {
+  const bool image = context.model.resources[use.resource].partition.shape.image;
+  for (const uint32_t cell : use.cells) {
+    const Access* row = row_for(rows, use, cell);
+    use.layouts.push_back(row ? row->layout : Layout::undefined);
+    if (!row) {
+      report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's pass does not list this access");
+      continue;
+    }
+    for (const Touch& touch : use.touches) {
+      const bool stages = (touch.stages & ~expand_stages(row->stages)) == 0, accesses = (touch.accesses & ~expand_accesses(row->accesses)) == 0;
+      if (touch.needed && !(stages && accesses)) report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's row names other stages or accesses than the program declares");
+    }
+    const dsl::Pass& pass = context.model.pass(node.plan_pass);
+    const uint32_t aspect = aspect_of_cell(context.model.resources[use.resource].partition, cell);
+    if (image && !is_legal_layout(pass, pass.accesses[use.access], aspect, layout_of_aspect(row->layout, aspect)))
+      report_pass(context, Hazard::wrong_layout, node, use.resource, "layout " + layout_name(row->layout) + " does not allow this access");
+  }
+}
+
+void take_attachment(const PassContext& context, const PassNode& node, const dsl::Access& access, Use& use) {
+  const Pass& pass = context.model.input->plan.passes[node.plan_pass];
+  const Attachment* row = find_attachment(context.model, pass, access);
+  use.attachment = true;
+  if (!row) {
+    report_pass(context, Hazard::invalid_plan, node, use.resource, "the rendering lacks this attachment");
+    return;
+  }
+  use.load = row->load, use.store = row->store;
+  use.touches = touches_of_attachment(access, use.load, use.store);
+}
+
+Use make_use(const PassContext& context, PassNode& node, uint32_t index, const std::vector<PlanRow>& rows) {
+  const Model& model = context.model;
+  const dsl::Pass& pass = model.pass(node.plan_pass);
+  const dsl::Access& access = pass.accesses[index];
+  Use use;
+  use.resource = access.resource.value;
+  use.age = access.age;
+  use.access = index;
+  const Partition& partition = model.resources[use.resource].partition;
+  use.cells = cells_in(partition, box_of(model.input->program, partition.shape, effective_range(access, partition.shape.aspects), context.extents));
+  use.orders.assign(use.cells.size(), 0);
+  use.uses_contents = uses_contents(pass, access);
+  use.writes = writes_contents(access);
+  use.commutes = commutes(access);
+  use.clears = access.clear.has_value();
+  if (is_attachment(access.role))
+    take_attachment(context, node, access, use);
+  else {
+    const Access* row = use.cells.empty() ? nullptr : row_for(rows, use, use.cells.front());
+    use.touches = touches_of(pass, access, row ? row->stages : 0);
+  }
+  take_rows(context, node, use, rows);
+  return use;
+}
+
+void add_pass(const PassContext& context, uint32_t index) {
+  Model& model = context.model;
+  const Pass& pass = model.input->plan.passes[index];
+  PassNode& node = model.passes[index];
+  node.plan_pass = index;
+  node.program_pass = model.input->program_pass[index];
+  const dsl::Pass& source = model.input->graph.passes.rows[node.program_pass];
+  node.may_skip = !source.conditions.empty() || !source.mip_limits.empty();
+  const std::vector<PlanRow> rows = rows_of(model, pass, context.extents);
+  for (uint32_t i = 0; i < source.accesses.size(); ++i)
+    if (model.resources[source.accesses[i].resource.value].plan != kNone)
+      node.uses.push_back(make_use(context, node, i, rows));
+    else
+      report_pass(context, Hazard::invalid_plan, node, source.accesses[i].resource.value, "the plan lacks the resource");
+  if (pass.rendering == kNone) return;
+  // Every attachment of the plan belongs to an access of the program.
+  for_each_attachment(model.input->plan, model.input->plan.renderings[pass.rendering], [&](const Attachment& row) {
+    const bool declared = std::any_of(source.accesses.begin(), source.accesses.end(), [&](const dsl::Access& access) {
+      return is_attachment(access.role) && find_attachment(model, pass, access) == &row;
+    });
+    if (!declared) report_pass(context, Hazard::invalid_plan, node, model.input->program_resource[row.ref.resource], "the rendering has an attachment that the pass does not declare");
+  });
+}
+
+// Passes that follow each other with one rendering between them, no barrier in between, are one rendering.
+void number_renderings(Model& model) {
+  uint32_t next = 0;
+  const PassNode* open = nullptr;
+  for (const StepNode& step : model.steps) {
+    if (!step.is_pass) {
+      open = nullptr;
+      continue;
+    }
+    PassNode& node = model.passes[step.index];
+    const Index rendering = model.input->plan.passes[step.index].rendering;
+    if (rendering == kNone) {
+      open = nullptr;
+      continue;
+    }
+    node.first_in_rendering = !open || model.input->plan.passes[open->plan_pass].rendering != rendering;
+    if (!node.first_in_rendering) model.passes[open->plan_pass].last_in_rendering = false;
+    node.rendering = node.first_in_rendering ? ++next : next;
+    open = &node;
+  }
+}
+
+// Numbers runs of commuting writers in program order, per cell.
+void number_orders(Model& model) {
+  std::vector<uint32_t> by_program(model.input->graph.passes.size(), kNone);
+  for (const PassNode& node : model.passes) by_program[node.program_pass] = node.plan_pass;
+  struct Last { bool atomic = false; uint32_t order = 0; };
+  std::vector<Last> last(model.cell_count);
+  uint32_t next = 0;
+  for (const uint32_t plan_pass : by_program) {
+    if (plan_pass == kNone) continue;
+    const dsl::Pass& pass = model.pass(plan_pass);
+    for (Use& use : model.passes[plan_pass].uses) {
+      for (size_t i = 0; i < use.cells.size(); ++i) {
+        Last& state = last[model.cell(use.resource, use.age % model.resources[use.resource].copies, use.cells[i])];
+        const bool atomic = pass.accesses[use.access].mode == dsl::Mode::atomic;
+        if (!use.commutes) {
+          state = {};
+          continue;
+        }
+        if (state.order == 0 || state.atomic != atomic) state = {atomic, ++next};
+        use.orders[i] = state.order;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string Model::pass_name(uint32_t plan_pass) const { return pass(plan_pass).name; }
+
+std::string Model::place(uint32_t resource_index, uint32_t cell) const {
+  const std::string part = cell_text(resources[resource_index].partition, cell);
+  return "`" + resource(resource_index).name + "`" + (part.empty() ? "" : " " + part);
+}
+
+Cut make_cut(const Input& input, const std::vector<int64_t>& extents) {
+  const auto& rows = input.graph.resources.rows;
+  std::vector<Shape> shapes;
+  for (const dsl::Resource& row : rows) shapes.push_back(shape_of(input.program, row, extents));
+  std::vector<std::vector<Box>> boxes(rows.size());
+  add_boxes_of_program(input, shapes, extents, boxes);
+  add_boxes_of_plan({input, shapes, extents, boxes});
+  Cut cut;
+  for (size_t r = 0; r < rows.size(); ++r) {
+    cut.partitions.push_back(make_partition(shapes[r], boxes[r]));
+    for (const Box& box : boxes[r]) add_ranks(cut.partitions.back(), box, cut.ranks);
+  }
+  return cut;
+}
+
+Model make_model(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, Report& report) {
+  Model model;
+  model.input = &input;
+  add_resources(model, std::move(partitions));
+  model.passes.resize(input.plan.passes.size());
+  for (uint32_t i = 0; i < input.plan.passes.size(); ++i) add_pass({model, extents, report}, i);
+  for (const Batch& batch : input.plan.batches)
+    for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
+      const Step& step = input.plan.steps[s];
+      if (step.kind == StepKind::barriers) add_group(model, extents, step.index);
+      model.steps.push_back({step.kind == StepKind::pass, step.kind == StepKind::pass ? step.index : static_cast<uint32_t>(model.groups.size() - 1)});
+    }
+  note_hand_overs(model);
+  number_renderings(model);
+  number_orders(model);
+  model.entry = make_boundaries(model, extents, input.plan.entry);
+  model.exit = make_boundaries(model, extents, input.plan.exit);
+  return model;
+}
+
+}  // namespace rg::verify

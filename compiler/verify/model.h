@@ -1,0 +1,118 @@
+// Program and plan joined into what the replays walk: steps over cells.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compiler/verify/cells.h"
+#include "compiler/verify/report.h"
+#include "compiler/verify/roles.h"
+#include "compiler/verify/vulkan_model.h"
+
+namespace rg::verify {
+
+// What is verified, as given.
+struct Input {
+  const dsl::Program& program;
+  const dsl::Graph& graph;
+  const std::vector<uint32_t>& configuration;
+  const Plan& plan;
+  const std::vector<uint32_t>& program_pass;      // by plan pass
+  const std::vector<uint32_t>& program_resource;  // by plan resource
+};
+
+// One declared access of a pass, with the operations the plan chose for it.
+struct Use {
+  uint32_t resource = 0, age = 0;  // program resource
+  uint32_t access = 0;             // index in the program pass
+  std::vector<uint32_t> cells;
+  std::vector<Layout> layouts;     // by cell: what the plan says the cell is in; undefined where it says nothing
+  std::vector<uint32_t> orders;    // by cell: commuting writers share a number; 0 none
+  std::vector<Touch> touches;
+  bool attachment = false, uses_contents = false, writes = false, commutes = false, clears = false;
+  LoadOp load = LoadOp::load;      // attachments
+  StoreOp store = StoreOp::store;
+};
+
+struct PassNode {
+  uint32_t plan_pass = 0, program_pass = 0;
+  bool may_skip = false;
+  uint32_t rendering = 0;  // passes of one rendering share a number; 0 none
+  bool first_in_rendering = true, last_in_rendering = true;
+  std::vector<Use> uses;
+};
+
+// One barrier of the plan, of any kind.
+enum class ScopeKind : uint8_t { memory, image, buffer };
+struct Scope {
+  ScopeKind kind = ScopeKind::memory;
+  uint32_t index = 0;  // in the plan's table of that kind
+  uint32_t group = 0;
+  Stages raw_src = 0, raw_dst = 0;
+  Accesses raw_src_accesses = 0, raw_dst_accesses = 0;
+  StageSet src = 0, src_earlier = 0, dst = 0, dst_later = 0;
+  AccessSet src_accesses = 0, dst_accesses = 0;
+  uint32_t resource = 0, age = 0;
+  std::vector<uint32_t> cells;
+  Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
+  BarrierTag tag = BarrierTag::hazard;
+};
+
+struct GroupNode {
+  std::vector<uint32_t> scopes;
+  StageSet src_earlier = 0, dst_later = 0;  // of all
+  bool has_memory = false;
+  std::vector<uint32_t> handed_over;  // plan's acquires of buffers that a pair lets take over memory here
+};
+
+struct StepNode { bool is_pass = false; uint32_t index = 0; };  // in passes or groups
+
+struct BoundaryNode {
+  uint32_t resource = 0, age = 0;
+  std::vector<uint32_t> cells;
+  StageSet stages = 0;
+  AccessSet accesses = 0;
+  Layout layout = Layout::undefined;
+  bool discard = false;
+};
+
+struct ResourceNode {
+  uint32_t plan = kNone;  // index in the plan; kNone: not planned
+  uint32_t copies = 1;
+  uint32_t first_cell = 0;  // of copy 0, in a numbering of all cells of all copies
+  Partition partition;
+};
+
+struct Model {
+  const Input* input = nullptr;
+  std::vector<ResourceNode> resources;  // by program resource
+  std::vector<PassNode> passes;         // by plan pass
+  std::vector<Scope> scopes;
+  std::vector<GroupNode> groups;
+  std::vector<StepNode> steps;
+  std::vector<BoundaryNode> entry, exit;
+  uint32_t cell_count = 0;
+  uint32_t history = 0;                 // longest
+
+  uint32_t cell(uint32_t resource, uint32_t copy, uint32_t cell) const {
+    const ResourceNode& node = resources[resource];
+    return node.first_cell + copy * node.partition.cell_count() + cell;
+  }
+  const dsl::Resource& resource(uint32_t index) const { return input->graph.resources.rows[index]; }
+  const dsl::Pass& pass(uint32_t plan_pass) const { return input->graph.passes.rows[passes[plan_pass].program_pass]; }
+  std::string pass_name(uint32_t plan_pass) const;
+  std::string place(uint32_t resource, uint32_t cell) const;  // "`bloom` mip 2"
+};
+
+// The cut of all resources at `extents`. `ranks` holds, for every range that occurs, the numbers of its first and last cut: where they are
+// equal, so are the cells of every range, and so is the proof.
+struct Cut {
+  std::vector<Partition> partitions;  // by program resource
+  std::vector<uint32_t> ranks;
+};
+Cut make_cut(const Input& input, const std::vector<int64_t>& extents);
+// Requires check_indices() to have found nothing. Reports accesses the plan does not list or lists differently.
+Model make_model(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, Report& report);
+
+}  // namespace rg::verify

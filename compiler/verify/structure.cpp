@@ -1,0 +1,264 @@
+#include "compiler/verify/structure.h"
+
+#include <algorithm>
+#include <string>
+
+namespace rg::verify {
+namespace {
+
+struct Bounds {
+  Report& report;
+  bool good = true;
+  void expect(bool condition, const std::string& text) {
+    if (condition) return;
+    good = false;
+    report.add({Hazard::invalid_plan, "", "", "", text});
+  }
+  void slice(uint64_t first, uint64_t count, size_t size, const std::string& what) { expect(first + count <= size, what + " reach beyond their table"); }
+};
+
+void check_mappings(const Input& input, Bounds& bounds) {
+  const auto unique = [](std::vector<uint32_t> values) {
+    std::sort(values.begin(), values.end());
+    return std::adjacent_find(values.begin(), values.end()) == values.end();
+  };
+  bounds.expect(input.program_pass.size() == input.plan.passes.size() && unique(input.program_pass), "plan passes and program passes do not correspond");
+  bounds.expect(input.program_resource.size() == input.plan.resources.size() && unique(input.program_resource), "plan resources and program resources do not correspond");
+  for (const uint32_t pass : input.program_pass) bounds.expect(pass < input.graph.passes.size(), "a plan pass has no program pass");
+  for (const uint32_t resource : input.program_resource) bounds.expect(resource < input.graph.resources.size(), "a plan resource has no program resource");
+  if (!bounds.good) return;
+  for (uint32_t r = 0; r < input.plan.resources.size(); ++r) {
+    const dsl::Resource& source = input.graph.resources.rows[input.program_resource[r]];
+    const uint32_t copies = source.lifetime == dsl::Lifetime::history ? source.history + 1 : 1;
+    bounds.expect(input.plan.resources[r].copies == copies, "`" + source.name + "` needs " + std::to_string(copies) + " copies");
+    bounds.expect((input.plan.resources[r].kind == ResourceKind::image) == (source.kind == dsl::ResourceKind::image), "`" + source.name + "` is planned as another kind");
+    bounds.expect(static_cast<uint32_t>(input.plan.resources[r].lifetime) == static_cast<uint32_t>(source.lifetime), "`" + source.name + "` is planned with another lifetime");
+  }
+}
+
+void check_refs(const Input& input, Bounds& bounds) {
+  const Plan& plan = input.plan;
+  const auto ref = [&](Ref r, const char* what) {
+    bounds.expect(r.resource < plan.resources.size() && r.age < plan.resources[r.resource].copies, std::string(what) + " names no resource");
+  };
+  for (const ImageBarrier& barrier : plan.image_barriers) ref(barrier.image, "an image barrier");
+  for (const BufferBarrier& barrier : plan.buffer_barriers) ref(barrier.buffer, "a buffer barrier");
+  for (const Boundary& boundary : plan.entry) ref(boundary.ref, "an entry state");
+  for (const Boundary& boundary : plan.exit) ref(boundary.ref, "an exit state");
+  for (const Attachment& attachment : plan.attachments) ref(attachment.ref, "an attachment");
+  for (const Access& access : plan.accesses) ref(access.ref, "an access");
+  for (const Acquire& acquire : plan.acquires)
+    bounds.expect(acquire.resource < plan.resources.size() && (acquire.group == kNone || acquire.group < plan.groups.size()), "an acquire names no resource or group");
+  for (const Release& release : plan.releases) bounds.expect(release.resource < plan.resources.size(), "a release names no resource");
+  for (const AliasPair& pair : plan.alias_pairs)
+    bounds.expect(pair.before < plan.resources.size() && pair.after < plan.resources.size() && pair.before != pair.after, "an alias pair names no two resources");
+}
+
+void check_tables(const Plan& plan, Bounds& bounds) {
+  for (const BarrierGroup& group : plan.groups) {
+    bounds.slice(group.first_memory, group.memory_count, plan.memory_barriers.size(), "memory barriers of a group");
+    bounds.slice(group.first_image, group.image_count, plan.image_barriers.size(), "image barriers of a group");
+    bounds.slice(group.first_buffer, group.buffer_count, plan.buffer_barriers.size(), "buffer barriers of a group");
+  }
+  for (const Pass& pass : plan.passes) {
+    bounds.slice(pass.first_access, pass.access_count, plan.accesses.size(), "accesses of a pass");
+    bounds.expect(pass.rendering == kNone || pass.rendering < plan.renderings.size(), "a pass names no rendering");
+  }
+  for (const Rendering& rendering : plan.renderings) {
+    bounds.slice(rendering.first_color, rendering.color_count, plan.attachments.size(), "attachments of a rendering");
+    bounds.expect(rendering.depth == kNone || rendering.depth < plan.attachments.size(), "a depth attachment is missing");
+    bounds.expect(rendering.stencil == kNone || rendering.stencil < plan.attachments.size(), "a stencil attachment is missing");
+  }
+}
+
+void check_steps(const Plan& plan, Bounds& bounds) {
+  std::vector<uint32_t> passes(plan.passes.size()), groups(plan.groups.size());
+  for (const Batch& batch : plan.batches) {
+    bounds.slice(batch.first_step, batch.step_count, plan.steps.size(), "steps of a batch");
+    bounds.expect(batch.queue == 0, "batches on several queues are not modelled");
+    if (!bounds.good) return;
+    for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
+      const Step& step = plan.steps[s];
+      std::vector<uint32_t>& counts = step.kind == StepKind::pass ? passes : groups;
+      bounds.expect(step.index < counts.size(), "a step names nothing");
+      if (!bounds.good) return;
+      ++counts[step.index];
+    }
+  }
+  bounds.expect(std::all_of(passes.begin(), passes.end(), [](uint32_t n) { return n == 1; }), "a pass is not executed exactly once");
+  bounds.expect(std::all_of(groups.begin(), groups.end(), [](uint32_t n) { return n <= 1; }), "a barrier group is executed twice");
+}
+
+void check_configuration(const Input& input, Bounds& bounds) {
+  for (const uint32_t index : input.program_pass) {
+    const dsl::Pass& pass = input.graph.passes.rows[index];
+    for (const dsl::Guard::Term& term : pass.guard.terms) {
+      const uint32_t value = term.feature.value < input.configuration.size() ? input.configuration[term.feature.value] : 0;
+      bounds.expect((value == term.value) != term.negated, "`" + pass.name + "` does not belong to this configuration");
+    }
+  }
+}
+
+// ---- valid usage ------------------------------------------------------------------------------------------------
+
+struct Usage {
+  const Model& model;
+  Report& report;
+};
+
+std::string scope_text(const Model& model, const Scope& scope) {
+  const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier "};
+  std::string text = kinds[static_cast<size_t>(scope.kind)] + std::to_string(scope.index);
+  if (scope.kind != ScopeKind::memory) text += " on `" + model.resource(scope.resource).name + "`";
+  return text;
+}
+
+void report_scope(const Usage& usage, const Scope& scope, const std::string& text) {
+  const std::string resource = scope.kind == ScopeKind::memory ? "" : usage.model.resource(scope.resource).name;
+  usage.report.add({Hazard::invalid_barrier, resource, "", "", scope_text(usage.model, scope) + ": " + text});
+}
+
+constexpr Stages kTooWideStages = stage::all_commands | stage::all_graphics | stage::bottom_of_pipe;
+constexpr Accesses kTooWideAccesses = access::memory_read | access::memory_write;
+
+// VUID-*-srcAccessMask-* and -dstAccessMask-*: an access needs a stage that can perform it.
+void check_masks(const Usage& usage, const Scope& scope) {
+  if (unknown_stages((scope.raw_src | scope.raw_dst) & ~stage::bottom_of_pipe) || unknown_accesses(scope.raw_src_accesses | scope.raw_dst_accesses))
+    report_scope(usage, scope, "its masks have unknown bits");
+  if (scope.src_accesses & ~supported_by_any(scope.src)) report_scope(usage, scope, "no source stage supports its source accesses");
+  if (scope.dst_accesses & ~supported_by_any(scope.dst)) report_scope(usage, scope, "no destination stage supports its destination accesses");
+  const bool wide = ((scope.raw_src | scope.raw_dst) & kTooWideStages) || ((scope.raw_src_accesses | scope.raw_dst_accesses) & kTooWideAccesses);
+  if (wide && scope.tag != BarrierTag::workaround) report_scope(usage, scope, "its masks are wider than any plan may use");
+}
+
+// VUID-VkImageMemoryBarrier2-newLayout-01198, -oldLayout-012xx, -subresourceRange-014xx.
+void check_image_scope(const Usage& usage, const Scope& scope) {
+  const ResourceNode& node = usage.model.resources[scope.resource];
+  const ImageBarrier& barrier = usage.model.input->plan.image_barriers[scope.index];
+  const Resource& image = usage.model.input->plan.resources[barrier.image.resource];
+  if (!node.partition.shape.image) return report_scope(usage, scope, "it names a buffer");
+  const Box box = box_of(node.partition.shape, barrier.range);
+  if (box.empty() || box.mip_end > node.partition.shape.mips || box.layer_end > node.partition.shape.layers) report_scope(usage, scope, "its range is outside the image");
+  if (box.aspects & ~node.partition.shape.aspects) report_scope(usage, scope, "its aspects are not those of the format");
+  if (scope.new_layout == Layout::undefined) report_scope(usage, scope, "its new layout is undefined");
+  for (const Layout layout : {scope.old_layout, scope.new_layout})
+    if (usage_for(layout) != 0 && image.usage != 0 && !(usage_for(layout) & image.usage)) report_scope(usage, scope, "the image's usage does not allow layout " + layout_name(layout));
+  if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
+}
+
+void check_buffer_scope(const Usage& usage, const Scope& scope) {
+  const BufferBarrier& barrier = usage.model.input->plan.buffer_barriers[scope.index];
+  if (usage.model.resources[scope.resource].partition.shape.image) return report_scope(usage, scope, "it names an image");
+  if (scope.cells.empty()) report_scope(usage, scope, "its range is empty");
+  if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
+}
+
+std::vector<std::string> conditions_of_plan(const Model& model, const Pass& pass) {
+  std::vector<std::string> names;
+  for (uint32_t bit = 0; bit < 64; ++bit)
+    if (pass.guard >> bit & 1) names.emplace_back(bit < model.input->plan.conditions.size() ? model.input->plan.conditions[bit] : std::string_view("?"));
+  std::sort(names.begin(), names.end());
+  return names;
+}
+std::vector<std::string> conditions_of_program(const Model& model, const dsl::Pass& pass) {
+  std::vector<std::string> names;
+  for (const dsl::ConditionId condition : pass.conditions) names.push_back(model.input->program.conditions[condition].name);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+using Limits = std::vector<std::pair<uint32_t, uint32_t>>;
+Limits limits_of_plan(const Model& model, const Pass& pass) {
+  Limits limits;
+  for (uint32_t i = pass.first_mip_limit; i < pass.first_mip_limit + pass.mip_limit_count && i < model.input->plan.mip_limits.size(); ++i) {
+    const MipLimit& limit = model.input->plan.mip_limits[i];
+    limits.emplace_back(limit.image < model.input->program_resource.size() ? model.input->program_resource[limit.image] : kNone, limit.mip);
+  }
+  std::sort(limits.begin(), limits.end());
+  return limits;
+}
+Limits limits_of_program(const dsl::Pass& pass) {
+  Limits limits;
+  for (const dsl::MipLimit& limit : pass.mip_limits) limits.emplace_back(limit.image.value, limit.mip);
+  std::sort(limits.begin(), limits.end());
+  return limits;
+}
+
+void check_guards(const Usage& usage, const PassNode& node) {
+  const Pass& plan = usage.model.input->plan.passes[node.plan_pass];
+  const dsl::Pass& program = usage.model.pass(node.plan_pass);
+  const bool same = conditions_of_plan(usage.model, plan) == conditions_of_program(usage.model, program) && limits_of_plan(usage.model, plan) == limits_of_program(program);
+  if (!same) usage.report.add({Hazard::invalid_plan, "", program.name, "", "`" + program.name + "` runs under other conditions than declared"});
+}
+
+// Attachments are written by fixed function while shaders run: the same element may be in no other role, unless both only read.
+void check_feedback(const Usage& usage, const PassNode& node) {
+  for (const Use& a : node.uses)
+    for (const Use& b : node.uses) {
+      if (!a.attachment || !a.writes || &a == &b || a.resource != b.resource || a.age != b.age) continue;
+      const dsl::Role role = usage.model.pass(node.plan_pass).accesses[b.access].role;
+      if (role == dsl::Role::resolve_src) continue;
+      std::vector<uint32_t> both;
+      std::set_intersection(a.cells.begin(), a.cells.end(), b.cells.begin(), b.cells.end(), std::back_inserter(both));
+      if (both.empty()) continue;
+      const std::string pass = usage.model.pass_name(node.plan_pass);
+      usage.report.add({Hazard::read_after_write, usage.model.resource(a.resource).name, pass, pass,
+                        "`" + pass + "` uses " + usage.model.place(a.resource, both.front()) + " as an attachment it writes and in a second role at once: a feedback loop"});
+    }
+}
+
+void check_declared_order(const Model& model, Report& report) {
+  std::vector<uint32_t> position(model.input->graph.passes.size(), kNone);
+  for (uint32_t s = 0; s < model.steps.size(); ++s)
+    if (model.steps[s].is_pass) position[model.passes[model.steps[s].index].program_pass] = s;
+  for (uint32_t p = 0; p < position.size(); ++p) {
+    const dsl::Pass& pass = model.input->graph.passes.rows[p];
+    if (position[p] == kNone) continue;
+    for (const dsl::PassId after : pass.after)
+      if (position[after.value] != kNone && position[after.value] > position[p])
+        report.add({Hazard::order, "", model.input->graph.passes[after].name, pass.name, "`" + pass.name + "` runs before `" + model.input->graph.passes[after].name + "`, which it is declared to follow"});
+  }
+}
+
+void check_kept(const Model& model, Report& report) {
+  std::vector<bool> planned(model.input->graph.passes.size());
+  for (const PassNode& node : model.passes) planned[node.program_pass] = true;
+  for (uint32_t p = 0; p < planned.size(); ++p) {
+    const dsl::Pass& pass = model.input->graph.passes.rows[p];
+    const bool selected = std::all_of(pass.guard.terms.begin(), pass.guard.terms.end(), [&](const dsl::Guard::Term& term) {
+      const uint32_t value = term.feature.value < model.input->configuration.size() ? model.input->configuration[term.feature.value] : 0;
+      return (value == term.value) != term.negated;
+    });
+    if (pass.keep && selected && !planned[p]) report.add({Hazard::missing_pass, "", pass.name, "", "`" + pass.name + "` is declared `keep` but is not planned"});
+  }
+}
+
+}  // namespace
+
+bool check_indices(const Input& input, Report& report) {
+  Bounds bounds{report};
+  check_mappings(input, bounds);
+  if (bounds.good) check_refs(input, bounds);
+  if (bounds.good) check_tables(input.plan, bounds);
+  if (bounds.good) check_steps(input.plan, bounds);
+  if (bounds.good) check_configuration(input, bounds);
+  return bounds.good;
+}
+
+void check_usage(const Model& model, Report& report) {
+  const Usage usage{model, report};
+  for (const Scope& scope : model.scopes) {
+    check_masks(usage, scope);
+    if (scope.kind == ScopeKind::image) check_image_scope(usage, scope);
+    if (scope.kind == ScopeKind::buffer) check_buffer_scope(usage, scope);
+  }
+  for (const PassNode& node : model.passes) {
+    check_guards(usage, node);
+    check_feedback(usage, node);
+  }
+  check_declared_order(model, report);
+  check_kept(model, report);
+}
+
+}  // namespace rg::verify

@@ -1,0 +1,457 @@
+#include "compiler/verify/sync_replay.h"
+
+#include <algorithm>
+#include <map>
+
+#include "compiler/verify/boundary.h"
+
+namespace rg::verify {
+namespace {
+
+struct Replay {
+  const Model& model;
+  Report& report;
+  History history;
+  std::vector<CellState> cells;
+  SyncResult result;
+  uint32_t frame = 0;
+
+  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}} {}
+
+  uint32_t physical(uint32_t resource, uint32_t age, uint32_t cell) const {
+    const uint32_t copies = model.resources[resource].copies;
+    return model.cell(resource, (frame + copies - age % copies) % copies, cell);
+  }
+  // Where boundaries keep what they say of a copy that is `age` frames old.
+  uint32_t at_frame_zero(uint32_t resource, uint32_t age, uint32_t cell) const {
+    const uint32_t copies = model.resources[resource].copies;
+    return model.cell(resource, (copies - age % copies) % copies, cell);
+  }
+  uint32_t now() const { return static_cast<uint32_t>(history.groups.size()); }
+  void require(const Proof& proof) {
+    if (!history.proofs) return;
+    for (const Atom atom : proof) result.required[atom] = true;
+  }
+};
+
+// ---- words ------------------------------------------------------------------------------------------------------
+
+std::string who(const Replay& replay, const WriteRecord& write) {
+  const Model& model = replay.model;
+  if (write.scope != kNone) {
+    const Scope& scope = model.scopes[write.scope];
+    return "the transition to " + layout_name(scope.new_layout) + " (image barrier " + std::to_string(scope.index) + ")";
+  }
+  const std::string by = write.pass == kNone ? "the state before the frame" : "`" + model.pass_name(write.pass) + "`";
+  if (write.stage == kStageCount) return by;
+  return by + " (" + stage_name(write.stage) + " " + access_name(write.access) + ")";
+}
+std::string who(const Replay& replay, const ReadRecord& read) {
+  const std::string by = read.pass == kNone ? "the state before the frame" : "`" + replay.model.pass_name(read.pass) + "`";
+  return by + " (" + stage_name(read.stage) + ")";
+}
+std::string pass_or_empty(const Replay& replay, uint32_t pass) { return pass == kNone ? "" : replay.model.pass_name(pass); }
+
+std::string what_is_missing(const WriteRecord& write, uint32_t stage, uint32_t access) {
+  if (!write.available) return "no barrier makes the write available";
+  if (!(write.reach.stages & stage_bit(stage))) return "no barrier orders " + stage_name(stage) + " after it";
+  return "no barrier makes it visible to " + stage_name(stage) + " " + access_name(access);
+}
+
+struct Point { uint32_t pass, resource, cell; };  // where an access happens
+
+void report_write(Replay& replay, const Point& at, const WriteRecord& write, uint32_t stage, uint32_t access) {
+  const bool writes = kAllWrites & access_bit(access);
+  const std::string second = replay.model.pass_name(at.pass);
+  replay.report.add({writes ? Hazard::write_after_write : Hazard::read_after_write, replay.model.resource(at.resource).name, pass_or_empty(replay, write.pass), second,
+                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") " + (writes ? "writes " : "reads ") + replay.model.place(at.resource, at.cell) +
+                         " after " + who(replay, write) + ": " + what_is_missing(write, stage, access)});
+}
+
+void report_read(Replay& replay, const Point& at, const ReadRecord& read, uint32_t stage, uint32_t access) {
+  const std::string second = replay.model.pass_name(at.pass);
+  replay.report.add({Hazard::write_after_read, replay.model.resource(at.resource).name, pass_or_empty(replay, read.pass), second,
+                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") overwrites " + replay.model.place(at.resource, at.cell) + " read by " +
+                         who(replay, read) + ": no barrier orders " + stage_name(stage) + " after the read"});
+}
+
+// ---- one access -------------------------------------------------------------------------------------------------
+
+// Attachment work inside one rendering happens in rasterization order. Numbers of renderings, of commuting runs and of frames do not meet.
+constexpr uint64_t kRenderingOrder = uint64_t{1} << 32;
+uint64_t order_of(const Replay& replay, const PassNode& node, const Use& use, size_t cell) {
+  const uint64_t frame = uint64_t{replay.frame} << 33;
+  if (use.attachment) return frame | kRenderingOrder | node.rendering;
+  return use.orders[cell] == 0 ? 0 : frame | use.orders[cell];
+}
+
+void check_after_writes(Replay& replay, const Point& at, const CellState& state, uint64_t order, uint32_t stage, uint32_t access, bool needed) {
+  const bool writes = kAllWrites & access_bit(access);
+  for (const WriteRecord& write : state.writes) {
+    if (order != 0 && write.order == order) continue;
+    // Readers in between saw the write, and this access waits for them: that orders it, too.
+    if (writes && write.read_since) continue;
+    if (write.visible[stage] & access_bit(access))
+      replay.require(*proof_of_visible(write, stage, access));
+    else if (needed)
+      report_write(replay, at, write, stage, access);
+  }
+}
+
+void check_after_reads(Replay& replay, const Point& at, const CellState& state, uint64_t order, uint32_t stage, uint32_t access) {
+  for (const ReadRecord& read : state.reads) {
+    if (order != 0 && read.order == order) continue;
+    if (read.reach.stages & stage_bit(stage))
+      replay.require(*proof_of_reach(read.reach, stage));
+    else
+      report_read(replay, at, read, stage, access);
+  }
+}
+
+void check_touch(Replay& replay, const Point& at, const CellState& state, uint64_t order, const Touch& touch) {
+  for (uint32_t s = 0; s < kStageCount; ++s) {
+    if (!(touch.stages & stage_bit(s))) continue;
+    for (uint32_t a = 0; a < kAccessCount; ++a) {
+      if (!(touch.accesses & supported(s) & access_bit(a))) continue;
+      check_after_writes(replay, at, state, order, s, a, touch.needed);
+      if (touch.needed && (kAllWrites & access_bit(a))) check_after_reads(replay, at, state, order, s, a);
+    }
+  }
+}
+
+void check_layout(Replay& replay, const Point& at, const CellState& state, Layout planned) {
+  const Partition& partition = replay.model.resources[at.resource].partition;
+  if (!partition.shape.image || planned == Layout::undefined) return;
+  const Layout wanted = layout_of_aspect(planned, aspect_of_cell(partition, at.cell));
+  if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
+  if (state.layout == wanted) return;
+  const std::string pass = replay.model.pass_name(at.pass);
+  replay.report.add({Hazard::wrong_layout, replay.model.resource(at.resource).name, "", pass,
+                     "`" + pass + "` uses " + replay.model.place(at.resource, at.cell) + " in layout " + layout_name(wanted) + ", but it is in " + layout_name(state.layout)});
+}
+
+// All touches of one pass on one cell: what is checked against the state before, and recorded together.
+struct CellUse {
+  bool touched = false;
+  uint64_t order = 0;
+  StageSet read_stages = 0;
+  AccessSet writes[kStageCount] = {};
+  bool any_write = false;
+};
+
+void gather(CellUse& cell_use, const Use& use) {
+  for (const Touch& touch : use.touches) {
+    if (!touch.needed) continue;
+    for (uint32_t s = 0; s < kStageCount; ++s) {
+      if (!(touch.stages & stage_bit(s))) continue;
+      const AccessSet accesses = touch.accesses & supported(s);
+      if (accesses & kAllReads) cell_use.read_stages |= stage_bit(s);
+      cell_use.writes[s] |= accesses & kAllWrites;
+      cell_use.any_write = cell_use.any_write || (accesses & kAllWrites);
+    }
+  }
+}
+
+void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
+  for (WriteRecord& write : state.writes)
+    if (use.read_stages && write.pass != pass && !(use.order != 0 && write.order == use.order)) write.read_since = true;
+  for (uint32_t s = 0; s < kStageCount; ++s) {
+    // A later access that waits for this pass's write in a stage waits for its read there as well.
+    if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;
+    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.stage == s; });
+    state.reads.push_back({s, pass, replay.now(), use.order, {}});
+  }
+}
+
+void record_writes(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
+  const bool commuting = use.order != 0 && !(use.order & kRenderingOrder);
+  if (!replay.model.passes[pass].may_skip && !commuting) {
+    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || replay.now() != read.seen; });
+    state.writes.clear();
+  }
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    for (uint32_t a = 0; a < kAccessCount; ++a) {
+      if (!(use.writes[s] & access_bit(a))) continue;
+      // An older write by the same stage and access is settled whenever this one is.
+      std::erase_if(state.writes, [&](const WriteRecord& w) { return w.stage == s && w.access == a && (use.order == 0 || w.order == use.order); });
+      WriteRecord write;
+      write.stage = s, write.access = a, write.pass = pass, write.order = use.order, write.seen = replay.now();
+      state.writes.push_back(std::move(write));
+    }
+}
+
+void check_use(Replay& replay, const PassNode& node, const Use& use, std::map<uint32_t, CellUse>& cell_uses) {
+  for (size_t i = 0; i < use.cells.size(); ++i) {
+    const uint32_t physical = replay.physical(use.resource, use.age, use.cells[i]);
+    CellState& state = replay.cells[physical];
+    advance(replay.history, state);
+    const Point at{node.plan_pass, use.resource, use.cells[i]};
+    const uint64_t order = order_of(replay, node, use, i);
+    check_layout(replay, at, state, use.layouts[i]);
+    for (const Touch& touch : use.touches) check_touch(replay, at, state, order, touch);
+    CellUse& cell_use = cell_uses[physical];
+    // Two accesses of one pass to one cell: they share an order only if both have it.
+    cell_use.order = cell_use.touched && cell_use.order != order ? 0 : order;
+    cell_use.touched = true;
+    gather(cell_use, use);
+  }
+}
+
+void run_pass(Replay& replay, uint32_t index) {
+  const PassNode& node = replay.model.passes[index];
+  std::map<uint32_t, CellUse> cell_uses;
+  for (const Use& use : node.uses) check_use(replay, node, use, cell_uses);
+  for (const auto& [physical, use] : cell_uses) {
+    CellState& state = replay.cells[physical];
+    record_reads(replay, index, use, state);
+    if (use.any_write) record_writes(replay, index, use, state);
+  }
+}
+
+// ---- barriers ---------------------------------------------------------------------------------------------------
+
+void report_transition(Replay& replay, const Scope& scope, uint32_t cell, Hazard hazard, const std::string& before, const std::string& pass, const std::string& missing) {
+  replay.report.add({hazard, replay.model.resource(scope.resource).name, pass, "",
+                     "image barrier " + std::to_string(scope.index) + " moves " + replay.model.place(scope.resource, cell) + " from " + layout_name(scope.old_layout) + " to " +
+                         layout_name(scope.new_layout) + " after " + before + ": " + missing});
+}
+
+void check_transition(Replay& replay, const Scope& scope, uint32_t id, uint32_t cell, const CellState& state) {
+  Proof proof;
+  for (const ReadRecord& read : state.reads) {
+    if (in_source(scope, id, read, proof))
+      replay.require(proof);
+    else
+      report_transition(replay, scope, cell, Hazard::write_after_read, "a read by " + who(replay, read), pass_or_empty(replay, read.pass), "its source stages do not wait for it");
+  }
+  for (const WriteRecord& write : state.writes) {
+    if (in_source(scope, id, write, proof))
+      replay.require(proof);
+    else
+      report_transition(replay, scope, cell, Hazard::write_after_write, "a write by " + who(replay, write), pass_or_empty(replay, write.pass),
+                        "its source scope does not make the write available");
+  }
+}
+
+void check_old_layout(Replay& replay, const Scope& scope, uint32_t cell, const CellState& state) {
+  if (scope.old_layout == Layout::undefined) return;
+  const uint32_t aspect = aspect_of_cell(replay.model.resources[scope.resource].partition, cell);
+  if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
+  if (layout_of_aspect(scope.old_layout, aspect) == state.layout) return;
+  replay.report.add({Hazard::wrong_layout, replay.model.resource(scope.resource).name, "", "",
+                     "image barrier " + std::to_string(scope.index) + " expects " + replay.model.place(scope.resource, cell) + " in " + layout_name(scope.old_layout) +
+                         ", but it is in " + layout_name(state.layout)});
+}
+
+bool is_transition(const Scope& scope) { return scope.kind == ScopeKind::image && scope.old_layout != scope.new_layout; }
+
+void apply_to_cell(Replay& replay, const GroupNode& group, uint32_t cell, const std::vector<uint32_t>& local, CellState& state) {
+  const auto transition = std::find_if(local.begin(), local.end(), [&](uint32_t id) { return is_transition(replay.model.scopes[id]); });
+  for (const uint32_t id : local)
+    if (replay.model.scopes[id].kind == ScopeKind::image) check_old_layout(replay, replay.model.scopes[id], cell, state);
+  if (transition == local.end()) {
+    apply_group(replay.history, group, local, state);
+    return;
+  }
+  const Scope& scope = replay.model.scopes[*transition];
+  if (local.size() > 1)
+    replay.report.add({Hazard::invalid_barrier, replay.model.resource(scope.resource).name, "", "",
+                       "two image barriers of one group cover " + replay.model.place(scope.resource, cell) + ", and one changes its layout"});
+  check_transition(replay, scope, *transition, cell, state);
+  state.reads.clear();
+  state.writes = {transition_record(replay.history, scope, *transition)};
+  state.writes.front().seen = replay.now() + 1;
+  state.layout = layout_of_aspect(scope.new_layout, aspect_of_cell(replay.model.resources[scope.resource].partition, cell));
+  state.layout_scope = *transition;
+}
+
+// The runtime adds a memory barrier from the last users of the memory to the first users of its new owner; to these it is a write before them.
+void hand_over(Replay& replay, const Acquire& acquire) {
+  WriteRecord write;
+  write.pass = kNone;
+  write.available = true;
+  write.seen = replay.now();
+  write.reach.stages = write.reach.settled = with_later(expand_stages(acquire.stages));
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (expand_stages(acquire.stages) & stage_bit(s)) write.visible[s] = expand_accesses(acquire.accesses) & supported(s);
+  const uint32_t r = replay.model.input->program_resource[acquire.resource];
+  for (uint32_t c = 0; c < replay.model.resources[r].partition.cell_count(); ++c) {
+    CellState& state = replay.cells[replay.physical(r, 0, c)];
+    advance(replay.history, state);
+    state.writes.push_back(write);
+  }
+}
+
+void run_group(Replay& replay, uint32_t index) {
+  const GroupNode& group = replay.model.groups[index];
+  struct Local { uint32_t cell = 0; std::vector<uint32_t> scopes; };
+  std::map<uint32_t, Local> covered;
+  for (const uint32_t id : group.scopes) {
+    const Scope& scope = replay.model.scopes[id];
+    if (scope.kind == ScopeKind::memory) continue;
+    for (const uint32_t c : scope.cells) {
+      Local& local = covered[replay.physical(scope.resource, scope.age, c)];
+      local.cell = c;
+      local.scopes.push_back(id);
+    }
+  }
+  for (const auto& [physical, local] : covered) {
+    advance(replay.history, replay.cells[physical]);
+    apply_to_cell(replay, group, local.cell, local.scopes, replay.cells[physical]);
+  }
+  replay.history.groups.push_back(index);
+  for (const uint32_t acquire : group.handed_over) hand_over(replay, replay.model.input->plan.acquires[acquire]);
+}
+
+// ---- frames -----------------------------------------------------------------------------------------------------
+
+void enter(Replay& replay, const std::vector<Pending>& entry) {
+  for (uint32_t r = 0; r < replay.model.resources.size(); ++r) {
+    const dsl::Lifetime lifetime = replay.model.resource(r).lifetime;
+    const bool fresh = lifetime == dsl::Lifetime::imported || lifetime == dsl::Lifetime::readback;
+    if (replay.frame != 0 && !fresh) continue;
+    const ResourceNode& node = replay.model.resources[r];
+    for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
+      // The host has waited for everything before it uses a read-back buffer again.
+      replay.cells[i] = lifetime == dsl::Lifetime::readback ? CellState{} : state_from(entry[i], replay.now());
+      for (WriteRecord& write : replay.cells[i].writes) write.pass = kNone;
+    }
+  }
+}
+
+void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
+  const CellState& state = replay.cells[replay.physical(r, 0, c)];
+  for (const WriteRecord& write : state.writes) {
+    if (write.visible[kHost] & access_bit(kHostRead))
+      replay.require(*proof_of_visible(write, kHost, kHostRead));
+    else
+      replay.report.add({Hazard::read_after_write, replay.model.resource(r).name, pass_or_empty(replay, write.pass), "",
+                         "the host reads " + replay.model.place(r, c) + " after " + who(replay, write) + ": no barrier makes the write visible to host host_read"});
+  }
+}
+
+void require_all(Replay& replay, const CellState& state, const Pending& pending) {
+  for (const ReadRecord& read : state.reads)
+    if (!(pending.stages & stage_bit(read.stage)))
+      for (uint32_t s = 0; s < kStageCount; ++s)
+        if (pending.stages & read.reach.stages & stage_bit(s)) replay.require(*proof_of_reach(read.reach, s));
+  for (const WriteRecord& write : state.writes) {
+    if (!write.available) continue;
+    for (uint32_t s = 0; s < kStageCount; ++s) {
+      if (pending.stages & stage_bit(s)) replay.require(*proof_of_reach(write.reach, s));
+      for (uint32_t a = 0; a < kAccessCount; ++a)
+        if (!pending.has_writes() && (pending.accesses[s] & kAllReads & access_bit(a))) replay.require(*proof_of_visible(write, s, a));
+    }
+  }
+  if (state.layout_scope != kNone && pending.layout != Layout::undefined) replay.require({atom_of(state.layout_scope, AtomField::whole)});
+}
+
+void check_exit_cell(Replay& replay, uint32_t r, uint32_t age, uint32_t c, const Pending& exit) {
+  const CellState& state = replay.cells[replay.physical(r, age, c)];
+  const bool imported = replay.model.resource(r).lifetime == dsl::Lifetime::imported;
+  std::string why;
+  if (!exit.stated) {
+    if (state.reads.empty() && state.writes.empty()) return;
+    why = "no exit state is given";
+  } else {
+    why = why_not_covered(state, exit);
+    if (why.empty() && !imported && exit.stages == 0 && !state.writes.empty()) why = "the exit state names nothing";
+  }
+  require_all(replay, state, exit);
+  if (why.empty()) return;
+  std::string last = "the state before the frame";
+  if (!state.writes.empty()) last = who(replay, state.writes.front());
+  replay.report.add({Hazard::boundary_mismatch, replay.model.resource(r).name, "", "", "at the end of the frame " + replay.model.place(r, c) + " (last written by " + last +
+                     (age ? ", age " + std::to_string(age) : "") + ") is not within the exit state: " + why});
+}
+
+void check_after_state(Replay& replay, uint32_t r, uint32_t c) {
+  const dsl::Resource& resource = replay.model.resource(r);
+  const Partition& partition = replay.model.resources[r].partition;
+  if (resource.after.role == dsl::Role::undefined) return;
+  const Pending wanted = pending_of(resource.after, partition.shape.image, aspect_of_cell(partition, c));
+  const CellState& state = replay.cells[replay.physical(r, 0, c)];
+  std::string why = resource.after.wrote ? "" : why_not_visible(state, wanted);
+  for (const WriteRecord& write : state.writes)
+    for (uint32_t s = 0; s < kStageCount; ++s)
+      for (uint32_t a = 0; a < kAccessCount; ++a)
+        if (wanted.accesses[s] & access_bit(a)) replay.require(*proof_of_visible(write, s, a));
+  if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
+  if (partition.shape.image && state.layout != wanted.layout && state.layout != Layout::undefined) why = "layout is " + layout_name(state.layout) + ", not " + layout_name(wanted.layout);
+  if (!why.empty())
+    replay.report.add({Hazard::boundary_mismatch, resource.name, "", "", replay.model.place(r, c) + " is not handed back in the declared `after` state: " + why});
+}
+
+void leave(Replay& replay, const std::vector<Pending>& exit) {
+  for (uint32_t r = 0; r < replay.model.resources.size(); ++r) {
+    const ResourceNode& node = replay.model.resources[r];
+    const dsl::Lifetime lifetime = replay.model.resource(r).lifetime;
+    if (node.plan == kNone || replay.result.first_use[r] == kNone) continue;
+    for (uint32_t age = 0; age < node.copies; ++age)
+      for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
+        advance(replay.history, replay.cells[replay.physical(r, age, c)]);
+        if (lifetime == dsl::Lifetime::readback)
+          check_host_reads(replay, r, c);
+        else
+          check_exit_cell(replay, r, age, c, exit[replay.at_frame_zero(r, age, c)]);
+        if (lifetime == dsl::Lifetime::imported) check_after_state(replay, r, c);
+      }
+  }
+}
+
+void find_uses(Replay& replay) {
+  SyncResult& result = replay.result;
+  result.first_use.assign(replay.model.resources.size(), kNone);
+  result.last_use.assign(replay.model.resources.size(), kNone);
+  for (uint32_t s = 0; s < replay.model.steps.size(); ++s) {
+    if (!replay.model.steps[s].is_pass) continue;
+    for (const Use& use : replay.model.passes[replay.model.steps[s].index].uses) {
+      if (result.first_use[use.resource] == kNone) result.first_use[use.resource] = s;
+      result.last_use[use.resource] = s;
+    }
+  }
+}
+
+// Transients whose last user is the step: their states as the next owner of the memory finds them.
+void keep_last_states(Replay& replay, uint32_t step) {
+  for (const Use& use : replay.model.passes[replay.model.steps[step].index].uses) {
+    if (replay.result.last_use[use.resource] != step) continue;
+    const ResourceNode& node = replay.model.resources[use.resource];
+    for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
+      advance(replay.history, replay.cells[i]);
+      replay.result.last[i] = replay.cells[i];
+    }
+  }
+}
+
+void run_frame(Replay& replay) {
+  for (uint32_t s = 0; s < replay.model.steps.size() && !replay.report.full(); ++s) {
+    const StepNode& step = replay.model.steps[s];
+    if (!step.is_pass) {
+      run_group(replay, step.index);
+      continue;
+    }
+    run_pass(replay, step.index);
+    if (replay.frame == 0) keep_last_states(replay, s);
+  }
+}
+
+}  // namespace
+
+SyncResult replay_sync(const Model& model, uint32_t frames, bool proofs, Report& report) {
+  Replay replay(model, report, proofs);
+  replay.cells.resize(model.cell_count);
+  replay.result.last.resize(model.cell_count);
+  if (proofs) replay.result.required.assign(static_cast<size_t>(atom_of(static_cast<uint32_t>(model.scopes.size()), AtomField::whole)), false);
+  find_uses(replay);
+  const std::vector<Pending> entry = pending_of(model, model.entry), exit = pending_of(model, model.exit);
+  for (; replay.frame < frames && !report.full(); ++replay.frame) {
+    enter(replay, entry);
+    run_frame(replay);
+    leave(replay, exit);
+    replay.history.proofs = false;
+  }
+  return std::move(replay.result);
+}
+
+}  // namespace rg::verify

@@ -1,0 +1,22 @@
+// Replays the plan's commands on all cells: is every access ordered after, and does it see, what came before it?
+//
+// A pass that may be skipped leaves both possibilities behind, so one replay covers every outcome of the conditions.
+// The first frame starts from the plan's entry states (the invariant's premise) and must end within its exit states; further frames
+// go on from where the frame before really ended (the unrolled cross-check).
+#pragma once
+
+#include <vector>
+
+#include "compiler/verify/sync_state.h"
+
+namespace rg::verify {
+
+struct SyncResult {
+  std::vector<bool> required;     // by Atom: some necessary fact has no proof without it; empty unless asked for
+  std::vector<CellState> last;    // by cell of Model, when the resource's last user of the first frame has run
+  std::vector<uint32_t> first_use, last_use;  // by program resource: positions in Model::steps; kNone: unused
+};
+
+SyncResult replay_sync(const Model& model, uint32_t frames, bool proofs, Report& report);
+
+}  // namespace rg::verify

@@ -1,0 +1,279 @@
+#include "compiler/verify/sync_state.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+namespace rg::verify {
+namespace {
+
+Proof unite(const Proof& a, const Proof& b) {
+  Proof result;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  return result;
+}
+void intersect(Proof& a, const Proof& b) {
+  Proof result;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  a = std::move(result);
+}
+
+// Intersection of alternative derivations; none yet means the fact does not hold.
+struct Alternatives {
+  std::optional<Proof> proof;
+  void add(Proof next) {
+    if (!proof)
+      proof = std::move(next);
+    else
+      intersect(*proof, next);
+  }
+};
+
+Proof stage_atom(uint32_t scope, AtomField field, Stages raw, uint32_t stage) {
+  const uint32_t bit = raw_bit_of_stage(raw, stage);
+  return bit == kNone ? Proof{} : Proof{atom_of(scope, field, bit)};
+}
+Proof access_atom(uint32_t scope, AtomField field, Accesses raw, uint32_t access) {
+  const uint32_t bit = raw_bit_of_access(raw, access);
+  return bit == kNone ? Proof{} : Proof{atom_of(scope, field, bit)};
+}
+
+const Proof kNoProof;
+
+// The source stages of `scope` that meet `stage`, as alternatives on top of `premise`.
+void add_meeting_sources(const Scope& scope, uint32_t scope_id, uint32_t stage, const Proof& premise, Alternatives& result) {
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if ((scope.src & stage_bit(s)) && (with_earlier(stage_bit(s)) & stage_bit(stage)))
+      result.add(unite(premise, stage_atom(scope_id, AtomField::src_stage, scope.raw_src, s)));
+}
+
+void add_chained_sources(const Scope& scope, uint32_t scope_id, const Reach& reach, Alternatives& result) {
+  for (uint32_t d = 0; d < kStageCount; ++d)
+    if (reach.stages & scope.src_earlier & stage_bit(d)) add_meeting_sources(scope, scope_id, d, *proof_of_reach(reach, d), result);
+}
+
+// A derivation waiting to be merged once all barriers of a group have seen the state before the group.
+struct NewReach { uint32_t stage; Proof proof; };
+struct NewVisible { uint32_t stage, access; Proof proof; };
+
+void add_reach(const Scope& scope, uint32_t scope_id, const Proof& source, StageSet settled, std::vector<NewReach>& result) {
+  const Proof base = unite(source, Proof{atom_of(scope_id, AtomField::whole)});
+  for (uint32_t d = 0; d < kStageCount; ++d) {
+    if (!(scope.dst_later & ~settled & stage_bit(d))) continue;
+    Alternatives targets;
+    for (uint32_t t = 0; t < kStageCount; ++t)
+      if ((scope.dst & stage_bit(t)) && (with_later(stage_bit(t)) & stage_bit(d)))
+        targets.add(stage_atom(scope_id, AtomField::dst_stage, scope.raw_dst, t));
+    result.push_back({d, unite(base, *targets.proof)});
+  }
+}
+
+void merge(Reach& reach, const NewReach& next) {
+  const StageSet bit = stage_bit(next.stage);
+  if (reach.settled & bit) return;
+  const auto at = std::find_if(reach.proofs.begin(), reach.proofs.end(), [&](const auto& entry) { return entry.first == next.stage; });
+  if (!(reach.stages & bit))
+    reach.proofs.emplace_back(next.stage, next.proof);
+  else
+    intersect(at->second, next.proof);
+  reach.stages |= bit;
+  const auto now = std::find_if(reach.proofs.begin(), reach.proofs.end(), [&](const auto& entry) { return entry.first == next.stage; });
+  if (!now->second.empty()) return;
+  reach.proofs.erase(now);
+  reach.settled |= bit;
+}
+
+void merge(WriteRecord& write, const NewVisible& next) {
+  const AccessSet bit = access_bit(next.access);
+  const auto at = std::find_if(write.proofs.begin(), write.proofs.end(), [&](const VisibleTo& v) { return v.stage == next.stage && v.access == next.access; });
+  if (!(write.visible[next.stage] & bit)) {
+    write.visible[next.stage] |= bit;
+    if (!next.proof.empty()) write.proofs.push_back({next.stage, next.access, next.proof});
+    return;
+  }
+  if (at == write.proofs.end()) return;
+  intersect(at->proof, next.proof);
+  if (at->proof.empty()) write.proofs.erase(at);
+}
+
+void extend_plain(Reach& reach, StageSet next) { reach.settled = reach.stages |= next; }
+
+void add_visible(const Scope& scope, uint32_t scope_id, const Proof& source, std::vector<NewVisible>& result) {
+  const Proof base = unite(source, Proof{atom_of(scope_id, AtomField::whole)});
+  for (uint32_t d = 0; d < kStageCount; ++d) {
+    if (!(scope.dst & stage_bit(d))) continue;
+    const Proof with_stage = unite(base, stage_atom(scope_id, AtomField::dst_stage, scope.raw_dst, d));
+    for (uint32_t a = 0; a < kAccessCount; ++a)
+      if (scope.dst_accesses & supported(d) & access_bit(a))
+        result.push_back({d, a, unite(with_stage, access_atom(scope_id, AtomField::dst_access, scope.raw_dst_accesses, a))});
+  }
+}
+
+bool makes_available(const Scope& scope, const WriteRecord& write) {
+  return write.stage < kStageCount && (scope.src & stage_bit(write.stage)) && (scope.src_accesses & access_bit(write.access));
+}
+
+struct Updates {
+  StageSet reach = 0;
+  AccessSet visible[kStageCount] = {};
+  bool available = false;
+  std::vector<NewReach> new_reach;
+  std::vector<NewVisible> new_visible;
+};
+
+// `memory`: the scope's memory dependency covers the cell.
+void see(const History& history, uint32_t scope_id, const WriteRecord& write, bool memory, Updates& updates) {
+  const Scope& scope = history.model.scopes[scope_id];
+  const bool first = memory && makes_available(scope, write);
+  const bool chained = write.available && (write.reach.stages & scope.src_earlier);
+  if (!first && !chained) return;
+  updates.available = updates.available || first;
+  updates.reach |= scope.dst_later;
+  if (memory)
+    for (uint32_t d = 0; d < kStageCount; ++d)
+      if (scope.dst & stage_bit(d)) updates.visible[d] |= scope.dst_accesses & supported(d);
+  if (!history.proofs) return;
+  Proof proof;
+  in_source(scope, scope_id, write, proof);
+  if (!memory) {
+    if (scope.dst_later & ~write.reach.settled) {
+      Alternatives chain;
+      add_chained_sources(scope, scope_id, write.reach, chain);
+      add_reach(scope, scope_id, *chain.proof, write.reach.settled, updates.new_reach);
+    }
+    return;
+  }
+  add_reach(scope, scope_id, proof, write.reach.settled, updates.new_reach);
+  add_visible(scope, scope_id, proof, updates.new_visible);
+}
+
+void commit(const History& history, const Updates& updates, WriteRecord& write) {
+  write.available = write.available || updates.available;
+  if (!history.proofs) {
+    extend_plain(write.reach, updates.reach);
+    for (uint32_t d = 0; d < kStageCount; ++d) write.visible[d] |= updates.visible[d];
+    return;
+  }
+  for (const NewReach& next : updates.new_reach) merge(write.reach, next);
+  for (const NewVisible& next : updates.new_visible) merge(write, next);
+}
+
+bool is_local(const std::vector<uint32_t>& local, uint32_t scope) { return std::find(local.begin(), local.end(), scope) != local.end(); }
+
+void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
+  Updates updates;
+  for (const uint32_t id : group.scopes)
+    see(history, id, write, history.model.scopes[id].kind == ScopeKind::memory || is_local(local, id), updates);
+  commit(history, updates, write);
+}
+
+// A group without effects on the record can be skipped without a look at its barriers.
+bool concerns(const GroupNode& group, const Reach& reach, StageSet own) {
+  if (!((reach.stages | own) & group.src_earlier)) return false;
+  return (group.dst_later & ~reach.settled) != 0;
+}
+
+void apply(const History& history, const GroupNode& group, ReadRecord& read) {
+  const StageSet own = stage_bit(read.stage);
+  if (!concerns(group, read.reach, own)) return;
+  StageSet plain = 0;
+  std::vector<NewReach> next;
+  for (const uint32_t id : group.scopes) {
+    const Scope& scope = history.model.scopes[id];
+    if (!((read.reach.stages | own) & scope.src_earlier)) continue;
+    plain |= scope.dst_later;
+    if (!history.proofs || !(scope.dst_later & ~read.reach.settled)) continue;
+    Proof proof;
+    in_source(scope, id, read, proof);
+    add_reach(scope, id, proof, read.reach.settled, next);
+  }
+  if (!history.proofs) extend_plain(read.reach, plain);
+  for (const NewReach& n : next) merge(read.reach, n);
+}
+
+}  // namespace
+
+const Proof* proof_of_reach(const Reach& reach, uint32_t stage) {
+  for (const auto& [s, proof] : reach.proofs)
+    if (s == stage) return &proof;
+  return &kNoProof;
+}
+
+const Proof* proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access) {
+  for (const VisibleTo& v : write.proofs)
+    if (v.stage == stage && v.access == access) return &v.proof;
+  return &kNoProof;
+}
+
+bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Proof& proof) {
+  if (!((read.reach.stages | stage_bit(read.stage)) & scope.src_earlier)) return false;
+  Alternatives alternatives;
+  add_meeting_sources(scope, scope_id, read.stage, kNoProof, alternatives);
+  add_chained_sources(scope, scope_id, read.reach, alternatives);
+  proof = std::move(*alternatives.proof);
+  return true;
+}
+
+bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, Proof& proof) {
+  Alternatives alternatives;
+  if (makes_available(scope, write))
+    alternatives.add(unite(stage_atom(scope_id, AtomField::src_stage, scope.raw_src, write.stage),
+                           access_atom(scope_id, AtomField::src_access, scope.raw_src_accesses, write.access)));
+  if (write.available) add_chained_sources(scope, scope_id, write.reach, alternatives);
+  if (!alternatives.proof) return false;
+  proof = std::move(*alternatives.proof);
+  return true;
+}
+
+void advance(const History& history, ReadRecord& read) {
+  for (; read.seen < history.groups.size(); ++read.seen) {
+    if (read.reach.settled == kAllStages) {
+      read.seen = static_cast<uint32_t>(history.groups.size());
+      return;
+    }
+    apply(history, history.model.groups[history.groups[read.seen]], read);
+  }
+}
+
+void advance(const History& history, WriteRecord& write) {
+  for (; write.seen < history.groups.size(); ++write.seen) {
+    const GroupNode& group = history.model.groups[history.groups[write.seen]];
+    const bool chain = write.available && concerns(group, write.reach, 0);
+    if (group.has_memory || chain) apply(history, group, {}, write);
+  }
+}
+
+void advance(const History& history, CellState& state) {
+  for (ReadRecord& read : state.reads) advance(history, read);
+  for (WriteRecord& write : state.writes) advance(history, write);
+}
+
+void apply_group(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state) {
+  for (ReadRecord& read : state.reads) {
+    apply(history, group, read);
+    ++read.seen;
+  }
+  for (WriteRecord& write : state.writes) {
+    apply(history, group, local, write);
+    ++write.seen;
+  }
+}
+
+WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id) {
+  WriteRecord write;
+  write.scope = scope_id;
+  write.available = true;
+  write.pass = kNone;
+  Updates updates;
+  updates.reach = scope.dst_later;
+  for (uint32_t d = 0; d < kStageCount; ++d)
+    if (scope.dst & stage_bit(d)) updates.visible[d] = scope.dst_accesses & supported(d);
+  if (history.proofs) {
+    add_reach(scope, scope_id, {}, 0, updates.new_reach);
+    add_visible(scope, scope_id, {}, updates.new_visible);
+  }
+  commit(history, updates, write);
+  return write;
+}
+
+}  // namespace rg::verify
