@@ -65,6 +65,15 @@ bool same_layout(const dsl::Program& program, dsl::StructId id) {
   return true;
 }
 
+// Names the generated API takes for itself.
+bool is_api_name(const dsl::Program& program, const std::string& name) {
+  for (const char* taken : {"Extents", "Imports", "Params", "EngineSets", "Updates", "Conditions"})
+    if (name == taken) return true;
+  for (const dsl::Graph& graph : program.graphs)
+    if (name == cpp_type_name(graph.name) || name == cpp_type_name(graph.name) + "Recorder") return true;
+  return false;
+}
+
 class StructEmitter {
  public:
   StructEmitter(const Layout& layout, const dsl::SourceFiles& files) : layout_(layout), files_(files) {}
@@ -145,7 +154,8 @@ std::vector<StructUse> find_struct_uses(const dsl::Program& program) {
 
 std::string mirror_name(const dsl::Program& program, const Uses& uses, dsl::StructId id, bool std140) {
   const StructUse& use = uses[id.value];
-  const std::string name = cpp_name(program.structs[id].name);
+  std::string name = cpp_name(program.structs[id].name);
+  if (is_api_name(program, name)) name += "_";
   return std140 && use.std430 && !same_layout(program, id) ? name + "_std140" : name;
 }
 

@@ -1,7 +1,7 @@
 #include "compiler/codegen/frame_api.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
 
 #include "dsl/check_macro.h"
 
@@ -101,7 +101,9 @@ std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& nam
   for (size_t r = 0; r < s.plan.resources.size(); ++r) {
     if (s.plan.resources[r].lifetime != Lifetime::readback) continue;
     const dsl::Resource& source = s.graph.resources.rows[s.plan.program_resource[r]];
-    readbacks.push_back({names.resources[r], names.resources[r], mirror_type(s.program, s.uses, source.element, false), s.where(source.span)});
+    static const std::set<std::string> kMethods = {"create", "resize", "execute", "instance", "submit", "record"};
+    const std::string method = names.resources[r] + (kMethods.contains(names.resources[r]) ? "_" : "");
+    readbacks.push_back({method, names.resources[r], mirror_type(s.program, s.uses, source.element, false), s.where(source.span)});
   }
   return readbacks;
 }
