@@ -1,0 +1,193 @@
+#include "compiler/machine/memory.h"
+
+#include <algorithm>
+
+namespace rg::machine {
+namespace {
+
+constexpr Layout kTornLayout = static_cast<Layout>(UINT32_MAX - 1);  // a transition raced with a write to the same memory
+
+void store_in(Memory& memory, const Cells& cells, const Dirty& write) {
+  Version& contents = memory.contents[write.cell];
+  if (!write.shares) contents = write.version;
+  else if (contents.base == write.version.base) contents.sum += write.addend;
+  else contents = {write.version.base, write.addend};
+  memory.settled[write.cell] = false;
+  for (const uint32_t rival : cells.rivals[write.cell]) {
+    memory.contents[rival] = {version::poison, 0};
+    memory.settled[rival] = false;
+  }
+}
+
+struct Execution {
+  Memory& memory;
+  const Cells& cells;
+  const Timeline& timeline;
+  uint32_t index;
+  bool hoards;
+  const Event& event = timeline.events[index];
+
+  Version& line(uint32_t agent, uint32_t cell) const { return memory.lines[size_t{agent} * cells.count + cell]; }
+
+  bool in_layout(uint32_t cell) const {
+    return !event.image || memory.layouts[cell] == layout_of_aspect(event.layout, cells.aspect_of[cell]);
+  }
+  bool same_memory(uint32_t a, uint32_t b) const {
+    return a == b || std::find(cells.rivals[a].begin(), cells.rivals[a].end(), b) != cells.rivals[a].end();
+  }
+
+  void store(const Dirty& write) const { store_in(memory, cells, write); }
+
+  // ---- accesses ----
+
+  Version find(uint32_t cell) const {
+    if (event.lost) return {version::poison, 0};
+    if (!in_layout(cell)) return {version::wrong_layout, 0};
+    return hoards && !event.through_semaphore ? line(event.agent, cell) : memory.contents[cell];
+  }
+
+  void read() const {
+    if (event.through_semaphore) write_back_all(memory, cells);
+    for (size_t k = 0; k < event.cells.size(); ++k) {
+      const uint32_t cell = event.cells[k];
+      const Version expected = event.expected[k], found = find(cell);
+      if (expected.base == version::undefined) continue;
+      if (found.base == expected.base && (event.shares || found.sum == expected.sum)) memory.settled[cell] = true;
+      else memory.mismatches.push_back({index, cell, expected, found});
+    }
+  }
+
+  // Two writes may land in any order unless the first was made available, and seen or made visible to the second.
+  bool races(uint32_t cell, Version result) const {
+    for (const Dirty& other : memory.dirty) {
+      const Event& writer = timeline.events[other.event];
+      const bool same_pass = writer.pass == event.pass && writer.frame == event.frame;
+      if (!same_pass && same_memory(other.cell, cell) && !(other.shares && event.shares)) return true;
+    }
+    if (memory.settled[cell] || (event.shares && memory.contents[cell].base == result.base)) return false;
+    return !(line(event.agent, cell) == memory.contents[cell]);
+  }
+
+  Dirty result_for(size_t k) const {
+    const uint32_t cell = event.cells[k];
+    Dirty write{index, cell, event.result[k], 0, event.shares};
+    write.addend = event.result[k].sum - (event.result[k].base == event.expected[k].base ? event.expected[k].sum : 0);
+    const auto spoil = [&](uint64_t base) { write.version = {base, 0}, write.shares = false; };
+    if (event.lost) spoil(version::poison);
+    if (!in_layout(cell)) spoil(version::wrong_layout);
+    if (hoards && races(cell, event.result[k])) spoil(version::torn);
+    return write;
+  }
+
+  void write() const {
+    for (size_t k = 0; k < event.cells.size(); ++k) {
+      const Dirty write = result_for(k);
+      if (!hoards) {
+        store(write);
+        continue;
+      }
+      std::erase_if(memory.dirty, [&](const Dirty& other) {
+        const Event& writer = timeline.events[other.event];
+        return other.cell == write.cell && writer.partial && writer.pass == event.pass && writer.frame == event.frame;
+      });
+      memory.dirty.push_back(write);
+    }
+  }
+
+  void bring() const {
+    for (size_t k = 0; k < event.cells.size(); ++k) {
+      const uint32_t cell = event.cells[k];
+      memory.layouts[cell] = layout_of_aspect(event.layout, cells.aspect_of[cell]);
+      const Dirty write{index, cell, event.result[k], 0, false};
+      if (event.pending && hoards) {
+        memory.dirty.push_back(write);
+        continue;
+      }
+      store(write);
+      memory.settled[cell] = true;
+      drop_lines(event.dst_agents, cell);
+    }
+  }
+
+  // ---- synchronisation ----
+
+  bool covers(uint32_t cell) const {
+    if (event.resource == kNone) return true;
+    return std::any_of(event.cells.begin(), event.cells.end(), [&](uint32_t own) { return own == cell || (event.image && same_memory(own, cell)); });
+  }
+
+  void make_available() const {
+    std::vector<Dirty> kept;
+    for (const Dirty& write : memory.dirty) {
+      const Event& writer = timeline.events[write.event];
+      const bool earlier = write.event < index && writer.queue == event.queue;
+      if (earlier && ((event.src_agents >> writer.agent) & 1) && covers(write.cell)) store(write);
+      else kept.push_back(write);
+    }
+    memory.dirty = std::move(kept);
+  }
+
+  void change_layout(uint32_t cell) const {
+    const uint32_t aspect = cells.aspect_of[cell];
+    const Layout from = layout_of_aspect(event.old_layout, aspect), to = layout_of_aspect(event.new_layout, aspect);
+    Layout& layout = memory.layouts[cell];
+    if (from == to && from == layout) return;
+    if (from == Layout::undefined) store({index, cell, {version::poison, 0}});
+    else if (from != layout) store({index, cell, {version::wrong_layout, 0}});
+    const bool raced = std::any_of(memory.dirty.begin(), memory.dirty.end(), [&](const Dirty& write) { return same_memory(write.cell, cell); });
+    layout = raced ? kTornLayout : to;
+  }
+
+  void drop_lines(AgentSet agents, uint32_t cell) const {
+    for (uint32_t agent = 0; agents >> agent; ++agent) {
+      if ((agents >> agent) & 1) line(agent, cell) = memory.contents[cell];
+      if (agent == 63) break;
+    }
+  }
+
+  void synchronise() const {
+    if (hoards) make_available();
+    if (event.image)
+      for (const uint32_t cell : event.cells) change_layout(cell);
+    if (!hoards || event.dst_agents == 0) return;
+    if (event.resource == kNone)
+      for (uint32_t cell = 0; cell < cells.count; ++cell) drop_lines(event.dst_agents, cell);
+    for (const uint32_t cell : event.cells) drop_lines(event.dst_agents, cell);
+  }
+};
+
+}  // namespace
+
+Memory initial_memory(const Subject& subject, const Timeline& timeline) {
+  Memory memory;
+  memory.contents.assign(subject.cells.count, {version::poison, 0});
+  memory.layouts.assign(subject.cells.count, Layout::undefined);
+  memory.settled.assign(subject.cells.count, true);
+  for (uint32_t r = 0; r < subject.cells.resources.size(); ++r) {
+    const ResourceCells& resource = subject.cells.resources[r];
+    for (uint32_t copy = 0; copy < resource.copies; ++copy)
+      for (uint32_t piece = 0; piece < resource.pieces.size(); ++piece)
+        if (subject.reference.initial[r][piece].base != version::undefined)
+          memory.contents[physical_cell(resource, piece, 0, copy)] = subject.reference.initial[r][piece];
+  }
+  for (const auto& [cell, layout] : timeline.initial_layouts) memory.layouts[cell] = layout_of_aspect(layout, subject.cells.aspect_of[cell]);
+  for (size_t agent = 0; agent < timeline.agents.size(); ++agent) memory.lines.insert(memory.lines.end(), memory.contents.begin(), memory.contents.end());
+  return memory;
+}
+
+void execute(Memory& memory, const Cells& cells, const Timeline& timeline, uint32_t event, Caches caches) {
+  const Execution execution{memory, cells, timeline, event, caches == Caches::hoard};
+  switch (execution.event.kind) {
+    case EventKind::read: return execution.read();
+    case EventKind::write: return execution.write();
+    case EventKind::barrier: return execution.synchronise();
+    case EventKind::bring: return execution.bring();
+  }
+}
+
+void write_back_all(Memory& memory, const Cells& cells) {
+  for (const Dirty& write : memory.dirty) store_in(memory, cells, write);
+  memory.dirty.clear();
+}
+
+}  // namespace rg::machine

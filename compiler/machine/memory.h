@@ -1,0 +1,42 @@
+// Memory and caches of the machine, and what one event does to them.
+#pragma once
+
+#include <vector>
+
+#include "compiler/machine/timeline.h"
+
+namespace rg::machine {
+
+enum class Caches : uint8_t {
+  hoard,  // write back only when an availability operation says so; refill as early as allowed and keep the line
+  none,   // write through, read memory
+};
+
+// A write that is in some cache and not in memory.
+struct Dirty {
+  uint32_t event = 0, cell = 0;
+  Version version;          // of a sharing write: what it leaves if it comes right after the version it expects
+  uint64_t addend = 0;      // of a sharing write
+  bool shares = false;
+};
+
+struct Mismatch {
+  uint32_t event = 0, cell = 0;
+  Version expected, found;
+};
+
+struct Memory {
+  std::vector<Version> contents;   // by cell
+  std::vector<Layout> layouts;     // by cell
+  std::vector<bool> settled;       // by cell: some access has seen the contents as they are
+  std::vector<Version> lines;      // by agent, cell
+  std::vector<Dirty> dirty;        // in the order executed
+  std::vector<Mismatch> mismatches;
+};
+
+Memory initial_memory(const Subject& subject, const Timeline& timeline);
+void execute(Memory& memory, const Cells& cells, const Timeline& timeline, uint32_t event, Caches caches);
+// What is in memory when the device is idle.
+void write_back_all(Memory& memory, const Cells& cells);
+
+}  // namespace rg::machine

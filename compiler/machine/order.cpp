@@ -1,0 +1,42 @@
+#include "compiler/machine/timeline.h"
+
+namespace rg::machine {
+namespace {
+
+bool within(Stages stages, Stages scope) { return (stages & ~scope) == 0; }
+
+// Within a pass: the hardware reads a resource before it writes it, and completes a write after it began.
+bool ordered_in_pass(const Event& a, const Event& b) {
+  if (a.resource != b.resource) return false;
+  return (a.kind == EventKind::read && b.kind == EventKind::write) || (a.partial && b.kind == EventKind::write && !b.partial);
+}
+
+// Transitions of a command follow what its memory barriers make available, where both wait for the same work.
+bool ordered_in_group(const Event& a, const Event& b) { return a.resource == kNone && b.image && (a.src & b.src) != 0; }
+
+bool precedes(const Event& a, const Event& b, bool same_group) {
+  if (a.queue != b.queue) return false;
+  const bool from_barrier = a.kind == EventKind::barrier, to_barrier = b.kind == EventKind::barrier;
+  if (from_barrier && to_barrier) return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0;
+  if (from_barrier) return b.stages != 0 && within(b.stages, a.dst);
+  if (to_barrier) return within(a.stages, b.src);
+  return a.pass != kNone && a.pass == b.pass && a.frame == b.frame && ordered_in_pass(a, b);
+}
+
+}  // namespace
+
+Predecessors find_order(const Timeline& timeline) {
+  Predecessors predecessors(timeline.events.size());
+  for (uint32_t b = 0; b < timeline.events.size(); ++b) {
+    const Event& later = timeline.events[b];
+    predecessors[b] = later.after;
+    for (uint32_t a = 0; a < b; ++a) {
+      const Event& earlier = timeline.events[a];
+      const bool same_group = earlier.frame == later.frame && earlier.group == later.group;
+      if (later.after_all || precedes(earlier, later, same_group)) predecessors[b].push_back(a);
+    }
+  }
+  return predecessors;
+}
+
+}  // namespace rg::machine

@@ -1,0 +1,311 @@
+#include "compiler/machine/timeline.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dsl/check_macro.h"
+
+namespace rg::machine {
+namespace {
+
+constexpr Accesses kEverything = access::memory_read | access::memory_write;
+
+bool intersects(const Region& a, const Region& b) {
+  for (const Piece& x : a)
+    for (const Piece& y : b)
+      if (x.aspect == y.aspect && x.x0 < y.x1 && y.x0 < x.x1 && x.y0 < y.y1 && y.y0 < x.y1) return true;
+  return false;
+}
+
+struct Unroller {
+  const Subject& in;
+  Timeline out = {};
+  uint32_t frame = 0, queue = 0;
+  std::vector<std::vector<uint32_t>> left_by = {};      // by program resource: events of the engine after the last frame
+  struct Signalled { Index queue; uint64_t value; uint32_t event; };
+  std::vector<Signalled> signals = {};                  // of this frame
+
+  const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
+  const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
+
+  uint32_t agent(Stages stage, Accesses access) {
+    const auto found = std::find(out.agents.begin(), out.agents.end(), Agent{stage, access});
+    if (found != out.agents.end()) return static_cast<uint32_t>(found - out.agents.begin());
+    out.agents.push_back({stage, access});
+    RG_CHECK(out.agents.size() <= 64, "at most 64 pairs of stage and access");
+    return static_cast<uint32_t>(out.agents.size() - 1);
+  }
+
+  std::vector<uint32_t> physical(uint32_t resource, const Region& region, uint32_t age) const {
+    std::vector<uint32_t> result;
+    for (const uint32_t piece : pieces_in(cells_of(resource), region)) result.push_back(physical_cell(cells_of(resource), piece, age, frame));
+    return result;
+  }
+  Region whole_region(uint32_t resource) const { return region_of(cells_of(resource), Range{}); }
+
+  Event& add(Event event) {
+    event.frame = frame;
+    event.queue = queue;
+    out.events.push_back(std::move(event));
+    return out.events.back();
+  }
+
+  Event touch_event(const Touch& touch, uint32_t resource, std::vector<uint32_t> cells, const std::string& who) {
+    Event event;
+    event.kind = touch.writes ? EventKind::write : EventKind::read;
+    event.label = fmt::format("{} {} `{}` in frame {} (stage {:#x})", who, touch.writes ? "writes" : "reads", row(resource).name, frame, touch.stage);
+    event.resource = resource;
+    event.cells = std::move(cells);
+    event.stages = touch.stage;
+    event.partial = touch.partial;
+    event.agent = agent(touch.stage, touch.access);
+    event.image = row(resource).kind == dsl::ResourceKind::image;
+    return event;
+  }
+
+  // ---- passes ----
+
+  bool plan_runs(const Pass& pass) const {
+    for (uint32_t bit = 0; bit < in.plan.conditions.size(); ++bit) {
+      if (((pass.guard >> bit) & 1) == 0) continue;
+      for (uint32_t i = 0; i < in.program.conditions.size(); ++i)
+        if (in.program.conditions.rows[i].name == in.plan.conditions[bit] && ((conditions_in(in.options, frame) >> i) & 1) == 0) return false;
+    }
+    for (const MipLimit& limit : in.plan.mip_limits.subspan(pass.first_mip_limit, pass.mip_limit_count)) {
+      const uint32_t image = in.program_resource[limit.image];
+      if (limit.mip >= mips_at(in.program, row(image), in.cells.extents)) return false;
+    }
+    return true;
+  }
+
+  const Attachment* find_attachment(const Pass& pass, const dsl::Access& access, const Region& region) const {
+    if (pass.rendering == kNone) return nullptr;
+    const Rendering& rendering = in.plan.renderings[pass.rendering];
+    const auto matches = [&](const Attachment& attachment) {
+      const uint32_t resource = in.program_resource[attachment.ref.resource];
+      return resource == access.resource.value && attachment.ref.age == access.age && intersects(region_of(cells_of(resource), attachment.range), region);
+    };
+    for (const Attachment& color : in.plan.attachments.subspan(rendering.first_color, rendering.color_count))
+      if (access.role == dsl::Role::color && matches(color)) return &color;
+    const Index index = access.role == dsl::Role::stencil ? rendering.stencil : rendering.depth;
+    if (access.role == dsl::Role::color || index == kNone) return nullptr;
+    return matches(in.plan.attachments[index]) ? &in.plan.attachments[index] : nullptr;
+  }
+
+  Layout listed_layout(const Pass& pass, const dsl::Access& access, const Region& region) const {
+    Layout layout = kUnusable;
+    for (const Access& listed : in.plan.accesses.subspan(pass.first_access, pass.access_count)) {
+      const uint32_t resource = in.program_resource[listed.ref.resource];
+      if (resource != access.resource.value || listed.ref.age != access.age || !intersects(region_of(cells_of(resource), listed.range), region)) continue;
+      if (layout == kUnusable || listed.writes == (access.mode != dsl::Mode::read)) layout = listed.layout;
+    }
+    return layout;
+  }
+
+  // What the plan's load and store operations do beside the draws.
+  static bool drops(const dsl::Pass& pass, const dsl::Access& access, const Attachment& attachment) {
+    const bool reads = needs_contents(pass, access);
+    const bool clears = access.clear && access.mode != dsl::Mode::read && !access.covers;
+    const bool lost_before = (reads && attachment.load != LoadOp::load) || (clears && attachment.load != LoadOp::clear);
+    return lost_before || (access.mode != dsl::Mode::read && attachment.store != StoreOp::store);
+  }
+  static bool rewrites(const dsl::Access& access, const Attachment& attachment) {
+    return access.mode == dsl::Mode::read && (attachment.load == LoadOp::clear || attachment.load == LoadOp::dont_care || attachment.store != StoreOp::none);
+  }
+
+  static bool destroys(const Attachment& attachment) { return attachment.load != LoadOp::load || attachment.store == StoreOp::dont_care; }
+
+  void add_access(const Pass& pass, Index index, uint32_t number) {
+    const uint32_t program_pass = in.program_pass[index];
+    const dsl::Pass& source = in.graph.passes.rows[program_pass];
+    const dsl::Access& access = source.accesses[number];
+    const uint32_t resource = access.resource.value;
+    const Region region = region_of(in.program, in.graph, in.cells, access);
+    const std::vector<uint32_t> cells = physical(resource, region, access.age);
+    const Attachment* attachment = is_attachment(access.role) ? find_attachment(pass, access, region) : nullptr;
+    Layout layout = attachment ? attachment->layout : is_attachment(access.role) ? kUnusable : listed_layout(pass, access, region);
+    if (!permits(layout, access.role, access.mode != dsl::Mode::read)) layout = kUnusable;
+
+    std::vector<Touch> touches = touches_of(source, access);
+    const bool rewritten = attachment && rewrites(access, *attachment);
+    if (rewritten) touches.push_back({touches.back().stage, touches.back().access << 1, true, false});  // each attachment write follows its read
+    const auto& effects = in.reference.effects[frame][program_pass];
+    for (const Touch& touch : touches) {
+      Event event = touch_event(touch, resource, cells, fmt::format("`{}`", source.name));
+      event.pass = index;
+      event.layout = layout;
+      event.shares = commutes(access);
+      event.lost = attachment && (drops(source, access, *attachment) || (rewritten && touch.writes && destroys(*attachment)));
+      event.expected = effects.empty() ? std::vector<Version>(cells.size()) : effects[number].before;
+      event.result = effects.empty() ? std::vector<Version>(cells.size(), {version::poison, 0}) : effects[number].after;
+      if (touch.partial) event.result.assign(cells.size(), {version::partial, 0});
+      add(std::move(event));
+    }
+  }
+
+  void add_pass(Index index) {
+    const Pass& pass = in.plan.passes[index];
+    if (!plan_runs(pass)) return;
+    const uint32_t accesses = static_cast<uint32_t>(in.graph.passes.rows[in.program_pass[index]].accesses.size());
+    for (uint32_t i = 0; i < accesses; ++i) add_access(pass, index, i);
+  }
+
+  // ---- synchronisation ----
+
+  Event scope_event(std::string label, Stages src, Accesses src_accesses, Stages dst, Accesses dst_accesses) {
+    Event event;
+    event.label = std::move(label);
+    event.src_exact = expand_stages(src);
+    event.dst_exact = expand_stages(dst);
+    event.src = with_earlier(event.src_exact);
+    event.dst = with_later(event.dst_exact);
+    event.src_accesses = expand_accesses(src_accesses);
+    event.dst_accesses = expand_accesses(dst_accesses);
+    return event;
+  }
+
+  template <class Barrier>
+  Event barrier_event(const Barrier& barrier, Index group, const std::string& what) {
+    Event event = scope_event(fmt::format("barrier of group {} on {} in frame {}", group, what, frame), barrier.src_stages, barrier.src_accesses,
+                              barrier.dst_stages, barrier.dst_accesses);
+    event.group = group;
+    return event;
+  }
+
+  void add_group(Index index) {
+    const BarrierGroup& group = in.plan.groups[index];
+    for (const MemoryBarrier& barrier : in.plan.memory_barriers.subspan(group.first_memory, group.memory_count)) add(barrier_event(barrier, index, "all memory"));
+    for (const BufferBarrier& barrier : in.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
+      const uint32_t resource = in.program_resource[barrier.buffer.resource];
+      Event event = barrier_event(barrier, index, "`" + row(resource).name + "`");
+      event.resource = resource;
+      event.cells = physical(resource, region_of(in.plan, in.cells, cells_of(resource), barrier.bytes), barrier.buffer.age);
+      add(std::move(event));
+    }
+    for (const ImageBarrier& barrier : in.plan.image_barriers.subspan(group.first_image, group.image_count)) {
+      const uint32_t resource = in.program_resource[barrier.image.resource];
+      Event event = barrier_event(barrier, index, "`" + row(resource).name + "`");
+      event.resource = resource;
+      event.image = true;
+      event.cells = physical(resource, region_of(cells_of(resource), barrier.range), barrier.image.age);
+      event.old_layout = barrier.old_layout;
+      event.new_layout = barrier.new_layout;
+      add(std::move(event));
+    }
+  }
+
+  void add_wait(const Wait& wait) {
+    Event event = scope_event(fmt::format("wait for queue {} in frame {}", wait.queue, frame), 0, 0, wait.stages, kEverything);
+    for (const Signalled& signal : signals)
+      if (signal.queue == wait.queue && signal.value <= wait.value) event.after.push_back(signal.event);
+    add(std::move(event));
+  }
+  void add_signal(const Signal& signal) {
+    add(scope_event(fmt::format("signal of queue {} in frame {}", queue, frame), signal.stages, kEverything, 0, 0));
+    signals.push_back({queue, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
+  }
+
+  void add_batch(const Batch& batch) {
+    queue = batch.queue;
+    for (const Wait& wait : in.plan.waits.subspan(batch.first_wait, batch.wait_count)) add_wait(wait);
+    for (const Step& step : in.plan.steps.subspan(batch.first_step, batch.step_count)) step.kind == StepKind::pass ? add_pass(step.index) : add_group(step.index);
+    for (const Signal& signal : in.plan.signals.subspan(batch.first_signal, batch.signal_count)) add_signal(signal);
+    queue = 0;
+  }
+
+  // ---- the engine, before and after the frame ----
+
+  Layout boundary_layout(std::span<const Boundary> boundaries, uint32_t resource, dsl::Role role) const {
+    for (const Boundary& boundary : boundaries)
+      if (in.program_resource[boundary.ref.resource] == resource && (role == dsl::Role::undefined || permits(boundary.layout, role, false)))
+        return boundary.layout;
+    return role == dsl::Role::undefined ? Layout::undefined : kUnusable;
+  }
+  Stages boundary_stages(uint32_t resource) const {
+    Stages stages = 0;
+    for (const Boundary& boundary : in.plan.entry)
+      if (in.program_resource[boundary.ref.resource] == resource) stages |= expand_stages(boundary.stages);
+    return stages;
+  }
+
+  void bring(uint32_t resource) {
+    const dsl::BoundaryState& before = row(resource).before;
+    Event event;
+    event.kind = EventKind::bring;
+    event.label = fmt::format("the engine brings `{}` in frame {}", row(resource).name, frame);
+    event.resource = resource;
+    event.image = row(resource).kind == dsl::ResourceKind::image;
+    event.cells = physical(resource, whole_region(resource), 0);
+    event.result.assign(event.cells.size(), imported_version(in.graph, resource, frame));
+    event.layout = boundary_layout(in.plan.entry, resource, before.role);
+    event.pending = before.wrote;
+    for (const Touch& touch : touches_of(before)) {
+      event.stages |= touch.stage;
+      event.agent = agent(touch.stage, touch.access);
+      event.dst_agents |= AgentSet{1} << event.agent;
+    }
+    if (event.stages == 0) event.stages = boundary_stages(resource);
+    event.after = left_by[resource];
+    add(std::move(event));
+  }
+
+  void leave(uint32_t resource) {
+    left_by[resource].clear();
+    const bool readback = row(resource).lifetime == dsl::Lifetime::readback;
+    const dsl::BoundaryState after = readback ? dsl::BoundaryState{dsl::Role::host_read, 0, false} : row(resource).after;
+    std::vector<Touch> touches = touches_of({after.role, after.stages, false});
+    const bool present = after.role == dsl::Role::present;
+    if (present) touches = {{stage::bottom_of_pipe, access::none, false, false}};
+    for (const Touch& touch : touches) {
+      Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0), readback ? "the host" : "the engine");
+      event.through_semaphore = present;
+      event.after_all = present || readback;
+      event.layout = boundary_layout(in.plan.exit, resource, after.role);
+      for (const Version& version : in.reference.finals[frame][resource]) event.expected.push_back(version);
+      add(std::move(event));
+      left_by[resource].push_back(static_cast<uint32_t>(out.events.size() - 1));
+    }
+  }
+
+  void add_frame() {
+    signals.clear();
+    for (uint32_t i = 0; i < in.graph.resources.size(); ++i)
+      if (row(i).lifetime == dsl::Lifetime::imported && cells_of(i).exists && (frame == 0 || changes_outside(in.graph, i))) bring(i);
+    for (const Batch& batch : in.plan.batches) add_batch(batch);
+    for (uint32_t i = 0; i < in.graph.resources.size(); ++i)
+      if ((row(i).lifetime == dsl::Lifetime::imported || row(i).lifetime == dsl::Lifetime::readback) && cells_of(i).exists) leave(i);
+  }
+
+  void find_agents(Event& event) const {
+    for (uint32_t i = 0; i < out.agents.size(); ++i) {
+      const Agent& agent = out.agents[i];
+      if ((agent.stage & event.src_exact) && (agent.access & event.src_accesses)) event.src_agents |= AgentSet{1} << i;
+      if ((agent.stage & event.dst_exact) && (agent.access & event.dst_accesses)) event.dst_agents |= AgentSet{1} << i;
+    }
+  }
+
+  void initial_layouts() {
+    frame = 0;
+    for (const Boundary& boundary : in.plan.entry) {
+      const uint32_t resource = in.program_resource[boundary.ref.resource];
+      if (row(resource).kind != dsl::ResourceKind::image) continue;
+      for (const uint32_t cell : physical(resource, region_of(cells_of(resource), boundary.range), boundary.ref.age))
+        out.initial_layouts.push_back({cell, boundary.layout});
+    }
+  }
+};
+
+}  // namespace
+
+Timeline unroll(const Subject& subject) {
+  Unroller unroller{subject};
+  unroller.left_by.resize(subject.graph.resources.size());
+  for (; unroller.frame < subject.options.frames; ++unroller.frame) unroller.add_frame();
+  unroller.initial_layouts();
+  for (Event& event : unroller.out.events)
+    if (event.kind == EventKind::barrier) unroller.find_agents(event);
+  return std::move(unroller.out);
+}
+
+}  // namespace rg::machine
