@@ -241,7 +241,7 @@ enum class PassKind : uint8_t { raster, compute, transfer, host };
 enum class QueueKind : uint8_t { graphics, compute, transfer };
 struct Shader {
   Stage stage = stage_compute;
-  std::string path;        // as written, relative to the folder of the module that names it
+  std::string path;        // relative to the root file's folder, whatever module names it
   Span span;
   friend bool operator==(const Shader&, const Shader&) = default;
 };

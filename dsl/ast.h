@@ -1,0 +1,280 @@
+// The tree of one file, as written: a value tree. Views point into the file's text, which outlives the tree.
+// A node with `has_error` was already complained about; later phases pass over it in silence.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "dsl/source.h"
+
+namespace rg::dsl::ast {
+
+struct Name {
+  std::string_view text;
+  Span span;
+  bool empty() const { return text.empty(); }
+};
+
+// ---- expressions ------------------------------------------------------------------------------------------------
+
+enum class ExprKind : uint8_t {
+  error,
+  integer, real,   // value
+  dimensions,      // 1920x1080: operands are integers
+  name,            // text
+  member,          // operands[0].text
+  index,           // operands[0][operands[1]]
+  call,            // operands[0](operands[1...])
+  list,            // [a, b, c] or (a, b)
+  negate, add, sub, mul, div,
+};
+struct Expr {
+  ExprKind kind = ExprKind::error;
+  Span span;
+  std::string_view text;
+  int64_t integer = 0;
+  double real = 0;
+  std::vector<Expr> operands;
+};
+
+// `culling.Light`, `u32`, with `[n]` or `[]` behind it
+struct TypeName {
+  Expr name;                  // name or member
+  std::optional<Expr> count;  // [n]
+  bool unsized = false;       // []
+  Span span;
+};
+
+// ---- declarations at file level ---------------------------------------------------------------------------------
+
+struct Import {
+  std::string_view path;
+  Span span;
+};
+struct Target {
+  Name api;
+  double version = 0;
+  Span span;
+};
+struct Constant {
+  Name name;
+  Expr value;
+};
+struct ExtentDeclaration {
+  Name name;
+  std::vector<Expr> initial, maximum;
+  Span span;
+};
+struct FieldDeclaration {
+  Name name;
+  TypeName type;
+};
+struct StructDeclaration {
+  Name name;
+  std::vector<FieldDeclaration> fields;
+};
+
+// A word with its values: `filter linear`, `bias 1.0 2.0`, `depth test greater`, `mips 6`, `no alias`.
+struct Setting {
+  Name word, second;          // second: `test` of `depth test`, `alias` of `no alias`
+  std::vector<Name> names;    // values that are words
+  std::vector<Expr> values;   // values that are numbers
+  Span span;
+};
+struct SamplerDeclaration {
+  Name name;
+  std::vector<Setting> settings;
+};
+struct StateDeclaration {
+  Name name;
+  std::vector<Setting> settings;
+};
+struct FeatureDeclaration {
+  Name name;
+  bool is_bool = true;
+  std::vector<Name> values;
+};
+struct ConditionDeclaration {
+  Name name;
+};
+struct EngineSetDeclaration {
+  Name name;
+  int64_t set = 0;
+  std::string_view glsl;
+  Span set_span;
+};
+
+// `sampled(clamp) in fragment, compute`
+struct Usage {
+  Name role;
+  std::optional<Expr> sampler;
+  std::vector<Name> stages;
+  Span span;
+};
+struct ResourceDeclaration {
+  bool is_buffer = false;
+  Name name;
+  std::optional<Expr> index;  // `image pyramid[i]`
+  Name format;                // images
+  std::optional<Expr> size;   // images
+  TypeName element;           // buffers
+  std::vector<Setting> settings;
+  std::optional<Expr> clear;  // of `init clear V`
+  bool has_init = false;
+  std::optional<Usage> ready, after;
+  bool wrote = false;         // `written as`, not `ready as`
+  bool has_error = false;
+  Span span;
+};
+struct InterfaceDeclaration {
+  Name name;
+  std::vector<ResourceDeclaration> members;
+};
+
+// ---- passes -----------------------------------------------------------------------------------------------------
+
+enum class Verb : uint8_t { read, write, update, atomic, color, depth, stencil };
+struct BlendOption {
+  Name op;
+  std::vector<Name> factors;
+  Span span;
+};
+struct AccessStatement {
+  Verb verb = Verb::read;
+  Name rename;
+  Expr target;
+  std::optional<Usage> usage;
+  std::optional<Expr> clear;
+  std::optional<BlendOption> blend;
+  bool covers = false, disjoint = false, readonly = false;
+  Span span;
+};
+struct ShaderStatement {
+  struct Path {
+    std::string_view text;
+    Span span;
+  };
+  std::vector<Path> paths;
+  std::vector<Expr> group;
+  bool fullscreen = false;
+  Span span;
+};
+struct DispatchStatement {
+  Name how;  // over, groups, indirect, host
+  std::optional<Expr> size;
+  Span span;
+};
+struct PerDraw {
+  Name name;
+  std::optional<Expr> type;                       // by name
+  std::optional<StructDeclaration> declaration;   // or in place
+};
+struct DrawStatement {
+  bool host = false, indirect = false, indexed = false;
+  std::optional<Expr> vertices, instances, arguments, max_draws, counts;
+  std::optional<PerDraw> per_draw;
+  std::vector<Expr> vertex;
+  Span span;
+};
+struct TransferStatement {
+  Name verb;  // copy, blit, clear, fill, update, resolve
+  std::optional<Expr> src, dst, value;
+  bool linear = false;
+  Span span;
+};
+struct HostTransfer {
+  std::vector<AccessStatement> accesses;
+  Span span;
+};
+struct ParamsStatement {
+  Name name;
+  std::optional<Expr> type;
+  Span span;
+};
+struct WordStatement {  // state NAME, bind NAME, after PASS, keep
+  Name word;
+  std::optional<Expr> value;
+  Span span;
+};
+using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
+
+struct PassDeclaration {
+  Name name;
+  std::optional<Expr> index;
+  Name kind, queue;
+  bool queue_may = false;
+  std::vector<Statement> statements;
+  bool has_error = false;
+  Span span;  // of the name with its index
+};
+
+// ---- graphs -----------------------------------------------------------------------------------------------------
+
+struct Assertion {
+  bool is_error = true;
+  Name fact;
+  std::vector<Expr> arguments;
+  Name comparison;
+  std::optional<Expr> value;
+  Name unit;
+  std::string_view text;
+  Span span;
+};
+struct Item;
+struct For {
+  Name variable;
+  Expr first, last;
+  std::vector<Item> body;
+  Span span;
+};
+struct When {
+  Name feature, value;
+  bool negated = false;
+  std::vector<Item> body, otherwise;
+  Span span;
+};
+struct IfHost {
+  Name condition;
+  std::vector<Item> body;
+  Span span;
+};
+struct Use {  // `use blur(hdr, inout color)`, `use left = blur(hdr)`
+  Name instance;
+  Expr technique;
+  std::vector<Expr> arguments;
+  Span span;
+};
+struct Item {
+  std::variant<ResourceDeclaration, PassDeclaration, For, When, IfHost, Use, Assertion> node;
+};
+struct Parameter {
+  enum class Kind : uint8_t { params, surface, interface, image, buffer, constant } kind = Kind::interface;
+  Name name;
+  Expr type;                    // struct or interface
+  ResourceDeclaration surface;  // surface
+  bool writable = false;        // `inout`: image and buffer parameters of a technique
+  Span span;
+};
+struct GraphDeclaration {  // or, as `technique`, a piece of one
+  Name name;
+  bool is_technique = false;
+  std::vector<Parameter> parameters;
+  std::vector<Item> body;
+  bool has_error = false;
+};
+
+using Declaration = std::variant<Constant, ExtentDeclaration, StructDeclaration, InterfaceDeclaration, SamplerDeclaration, StateDeclaration,
+                                 FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration>;
+struct File {
+  FileId file;
+  Name module;
+  std::optional<Target> target;
+  std::vector<Import> imports;
+  std::vector<Declaration> declarations;
+  bool has_error = false;  // something did not parse: unknown names may be our fault
+};
+
+}  // namespace rg::dsl::ast

@@ -1,0 +1,54 @@
+#include "dsl/check.h"
+
+#include <algorithm>
+
+#include "dsl/check_state.h"
+
+namespace rg::dsl {
+namespace {
+
+void add_constant(Checker& checker, uint32_t symbol) {
+  const Value& value = constant_value(checker, symbol);
+  if (!value.known_integer()) return;
+  const ast::Name name = checker.symbols[symbol].name;
+  if (!claim_public_name(checker, name)) return;
+  checker.program.constants.push_back({std::string(name.text), value.at[0].value});
+}
+
+void check_symbol(Checker& checker, uint32_t symbol) {
+  switch (checker.symbols[symbol].kind) {
+    case SymbolKind::constant: return add_constant(checker, symbol);
+    case SymbolKind::extent: extent_of(checker, symbol); break;
+    case SymbolKind::structure: struct_of(checker, symbol); break;
+    case SymbolKind::sampler: sampler_of(checker, symbol); break;
+    case SymbolKind::state: state_of(checker, symbol); break;
+    case SymbolKind::feature: feature_of(checker, symbol); break;
+    case SymbolKind::condition: condition_of(checker, symbol); break;
+    case SymbolKind::set: check_engine_set(checker, symbol); break;
+    case SymbolKind::interface:
+    case SymbolKind::graph:
+    case SymbolKind::technique: break;
+  }
+}
+
+void check_target(Checker& checker, const ast::File& file) {
+  if (!file.target || file.target->api.empty()) return;
+  const double version = file.target->version;
+  if (version < 1.25 || version > 1.45) checker.report(DiagnosticKind::UnsupportedTarget, file.target->span);
+}
+
+}  // namespace
+
+Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
+  Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, false};
+  checker.trees_had_errors = std::any_of(modules.begin(), modules.end(), [](const Module& module) { return module.tree.has_error; });
+  checker.program.module = modules.back().name;
+  collect_names(checker);
+  for (const Module& module : modules) check_target(checker, module.tree);
+  for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol) check_symbol(checker, symbol);
+  for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol)
+    if (checker.symbols[symbol].kind == SymbolKind::graph) check_graph(checker, symbol);
+  return std::move(checker.program);
+}
+
+}  // namespace rg::dsl

@@ -1,0 +1,295 @@
+// Every read needs a write that reaches it on every path: in every feature configuration and whatever the host's conditions are.
+//
+// A resource is a set of cells: (aspect, mip, layer) of an image, the whole or known byte ranges of a buffer. A cell remembers under which
+// guards and conditions it has been written for certain. A pass that exists only at extents with enough mips counts as running: what it
+// reads and writes vanishes with it.
+#include <algorithm>
+#include <map>
+
+#include "dsl/check_state.h"
+
+namespace rg::dsl {
+namespace {
+
+struct Fact {  // written for certain whenever the guard and the conditions hold
+  Guard guard;
+  std::vector<ConditionId> conditions;
+  friend bool operator==(const Fact&, const Fact&) = default;
+  bool always() const { return guard.terms.empty() && conditions.empty(); }
+};
+struct Cell {
+  bool always = false;
+  std::vector<Fact> facts;
+};
+struct ByteRange {
+  int64_t begin = 0, end = 0;
+  ExprId offset, size;  // valid: compared as formulas
+  Fact fact;
+};
+struct Tracked {
+  Cell whole;                  // buffers, and images written as a whole
+  std::vector<Cell> cells;     // images: aspect-major, allocated on the first partial write
+  std::vector<ByteRange> bytes;
+  std::vector<uint32_t> may;   // passes that may have written
+};
+
+struct Walk {
+  Checker& checker;
+  const Graph& graph;
+  std::vector<Tracked> tracked;
+  std::vector<Feature> features;
+  std::vector<bool> reported;  // by resource: its first bad read is enough
+};
+
+bool implies(const std::vector<ConditionId>& reader, const std::vector<ConditionId>& writer) {
+  return std::all_of(writer.begin(), writer.end(), [&](ConditionId each) { return std::find(reader.begin(), reader.end(), each) != reader.end(); });
+}
+
+using Configuration = std::map<uint32_t, uint32_t>;  // feature -> value
+
+bool holds(const Guard& guard, const Configuration& configuration) {
+  return std::all_of(guard.terms.begin(), guard.terms.end(), [&](const Guard::Term& term) {
+    const auto at = configuration.find(term.feature.value);
+    return at != configuration.end() && (at->second == term.value) != term.negated;
+  });
+}
+
+// Tries every configuration of the features that matter; more than the limit counts as covered only by unconditional facts.
+bool every_configuration(const Walk& walk, const std::vector<uint32_t>& features, const Guard& reader, const std::vector<const Fact*>& facts) {
+  constexpr uint64_t kMaxConfigurations = 4096;
+  uint64_t count = 1;
+  for (const uint32_t feature : features) {
+    count *= walk.features[feature].values.size();
+    if (count > kMaxConfigurations) return false;
+  }
+  for (uint64_t index = 0; index < count; ++index) {
+    Configuration configuration;
+    uint64_t rest = index;
+    for (const uint32_t feature : features) {
+      const uint64_t values = walk.features[feature].values.size();
+      configuration[feature] = static_cast<uint32_t>(rest % values);
+      rest /= values;
+    }
+    if (!holds(reader, configuration)) continue;
+    if (std::none_of(facts.begin(), facts.end(), [&](const Fact* fact) { return holds(fact->guard, configuration); })) return false;
+  }
+  return true;
+}
+
+bool covers(const Walk& walk, const std::vector<const Fact*>& facts, const Fact& reader) {
+  std::vector<const Fact*> usable;
+  std::vector<uint32_t> features;
+  const auto mention = [&](const Guard& guard) {
+    for (const Guard::Term& term : guard.terms)
+      if (std::find(features.begin(), features.end(), term.feature.value) == features.end()) features.push_back(term.feature.value);
+  };
+  for (const Fact* fact : facts) {
+    if (!implies(reader.conditions, fact->conditions)) continue;
+    if (fact->guard.terms.empty() || fact->guard == reader.guard) return true;
+    usable.push_back(fact);
+    mention(fact->guard);
+  }
+  if (usable.empty()) return false;
+  mention(reader.guard);
+  return every_configuration(walk, features, reader.guard, usable);
+}
+
+void add_facts(const Cell& cell, std::vector<const Fact*>& facts) {
+  for (const Fact& fact : cell.facts) facts.push_back(&fact);
+}
+
+bool cell_defined(const Walk& walk, const Tracked& tracked, const Cell* cell, const Fact& reader) {
+  if (tracked.whole.always || (cell && cell->always)) return true;
+  std::vector<const Fact*> facts;
+  add_facts(tracked.whole, facts);
+  if (cell) add_facts(*cell, facts);
+  return covers(walk, facts, reader);
+}
+
+void set(Cell& cell, const Fact& fact) {
+  if (cell.always) return;
+  if (fact.always()) {
+    cell.always = true;
+    cell.facts.clear();
+  } else if (std::find(cell.facts.begin(), cell.facts.end(), fact) == cell.facts.end()) {
+    cell.facts.push_back(fact);
+  }
+}
+
+// ---- images -----------------------------------------------------------------------------------------------------
+
+constexpr uint32_t kAspects[] = {aspect_color, aspect_depth, aspect_stencil};
+
+bool is_whole(const Resource& image, const Range& range) {
+  return range.aspects == info(image.format).aspects && mip_count(image, range) == image.mips && layer_count(image, range) == image.layers;
+}
+
+// Calls visit(cell index) for every cell of the range; stops when it returns false.
+template <class Visit>
+bool each_cell(const Resource& image, const Range& range, Visit visit) {
+  for (uint32_t aspect = 0; aspect < 3; ++aspect) {
+    if ((range.aspects & kAspects[aspect]) == 0) continue;
+    for (uint32_t mip = range.mip; mip < range.mip + mip_count(image, range); ++mip)
+      for (uint32_t layer = range.layer; layer < range.layer + layer_count(image, range); ++layer)
+        if (!visit((aspect * image.mips + mip) * image.layers + layer)) return false;
+  }
+  return true;
+}
+
+void define_image(Tracked& tracked, const Resource& image, const Range& range, const Fact& fact) {
+  if (is_whole(image, range)) return set(tracked.whole, fact);
+  if (tracked.cells.empty()) tracked.cells.resize(size_t{3} * image.mips * image.layers);
+  each_cell(image, range, [&](uint32_t cell) { return set(tracked.cells[cell], fact), true; });
+}
+
+bool image_defined(const Walk& walk, const Tracked& tracked, const Resource& image, const Range& range, const Fact& reader) {
+  if (tracked.cells.empty()) return cell_defined(walk, tracked, nullptr, reader);
+  return each_cell(image, range, [&](uint32_t cell) { return cell_defined(walk, tracked, &tracked.cells[cell], reader); });
+}
+
+// ---- buffers ----------------------------------------------------------------------------------------------------
+
+std::optional<int64_t> known(const Walk& walk, ExprId id) {
+  if (!id.valid() || walk.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
+  return walk.checker.program.exprs[id].value;
+}
+
+void define_buffer(const Walk& walk, Tracked& tracked, const Range& range, const Fact& fact) {
+  if (!range.offset.valid()) return set(tracked.whole, fact);
+  const auto offset = known(walk, range.offset), size = known(walk, range.size);
+  ByteRange bytes{0, 0, range.offset, range.size, fact};
+  if (offset && size) bytes = {*offset, *offset + *size, {}, {}, fact};
+  tracked.bytes.push_back(bytes);
+}
+
+bool bytes_defined(const Walk& walk, const Tracked& tracked, int64_t begin, int64_t end, const Fact& reader) {
+  while (begin < end) {
+    int64_t reach = begin;
+    for (const ByteRange& range : tracked.bytes) {
+      const bool fits = !range.offset.valid() && range.begin <= begin && range.end > reach;
+      if (fits && covers(walk, {&range.fact}, reader)) reach = range.end;
+    }
+    if (reach == begin) return false;
+    begin = reach;
+  }
+  return true;
+}
+
+bool buffer_defined(const Walk& walk, const Tracked& tracked, const Resource& buffer, const Range& range, const Fact& reader) {
+  if (cell_defined(walk, tracked, nullptr, reader)) return true;
+  const auto offset = known(walk, range.offset), size = known(walk, range.size), count = known(walk, buffer.count);
+  if (!range.offset.valid()) return count && bytes_defined(walk, tracked, 0, *count * buffer.stride, reader);
+  if (offset && size) return bytes_defined(walk, tracked, *offset, *offset + *size, reader);
+  return std::any_of(tracked.bytes.begin(), tracked.bytes.end(), [&](const ByteRange& bytes) {
+    return bytes.offset == range.offset && bytes.size == range.size && covers(walk, {&bytes.fact}, reader);
+  });
+}
+
+// ---- the walk over passes ---------------------------------------------------------------------------------------
+
+bool is_defined(const Walk& walk, const Access& access, const Fact& reader) {
+  const Resource& resource = walk.graph.resources[access.resource];
+  const Tracked& tracked = walk.tracked[access.resource.value];
+  if (resource.kind == ResourceKind::image) return image_defined(walk, tracked, resource, access.range, reader);
+  return buffer_defined(walk, tracked, resource, access.range, reader);
+}
+
+bool defined_from_start(const Resource& resource) {
+  if (resource.lifetime == Lifetime::imported) return resource.before.role != Role::undefined;
+  return resource.lifetime == Lifetime::persistent && resource.init == InitKind::clear;
+}
+
+bool needs_earlier(const Access& access) { return access.mode != Mode::write && !access.clear; }
+
+const Pass* find_later_writer(const Walk& walk, uint32_t pass, ResourceId resource) {
+  for (uint32_t later = pass; later < walk.graph.passes.size(); ++later)
+    for (const Access& access : walk.graph.passes.rows[later].accesses)
+      if (access.resource == resource && access.age == 0 && access.mode == Mode::write) return &walk.graph.passes.rows[later];
+  return nullptr;
+}
+
+const char* why_maybe(const Pass& pass) {
+  if (!pass.conditions.empty()) return "the host decides whether it runs";
+  if (!pass.guard.terms.empty()) return "it exists only with some features";
+  if (pass.dispatch.kind == DispatchKind::indirect) return "its work is counted on the GPU; declare `clear` or `covers`";
+  return "it keeps what it does not touch; declare `clear` or `covers`";
+}
+
+void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& diagnostic) {
+  const Resource& resource = walk.graph.resources[access.resource];
+  const Tracked& tracked = walk.tracked[access.resource.value];
+  if (!tracked.may.empty()) {
+    const Pass& writer = walk.graph.passes.rows[tracked.may.back()];
+    diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
+    return;
+  }
+  if (const Pass* later = find_later_writer(walk, pass + 1, access.resource)) diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
+  diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
+}
+
+void report(Walk& walk, uint32_t pass, const Access& access) {
+  if (walk.reported[access.resource.value]) return;
+  walk.reported[access.resource.value] = true;
+  const Resource& resource = walk.graph.resources[access.resource];
+  Diagnostic diagnostic(DiagnosticKind::ReadBeforeWrite, access.span, {walk.graph.passes.rows[pass].name, resource.name});
+  explain(walk, pass, access, diagnostic);
+  walk.checker.diagnostics.report(std::move(diagnostic));
+}
+
+void read(Walk& walk, uint32_t pass, const Access& access, const Fact& reader) {
+  if (access.age > 0 || !needs_earlier(access)) return;
+  if (!is_defined(walk, access, reader)) report(walk, pass, access);
+}
+
+void write(Walk& walk, uint32_t pass, const Access& access, const Fact& writer) {
+  if (access.mode == Mode::read) return;
+  const Resource& resource = walk.graph.resources[access.resource];
+  Tracked& tracked = walk.tracked[access.resource.value];
+  const bool certain = access.mode == Mode::write || access.clear;
+  if (!certain || !writer.always()) tracked.may.push_back(pass);
+  if (!certain) return;
+  if (resource.kind == ResourceKind::image) define_image(tracked, resource, access.range, writer);
+  else define_buffer(walk, tracked, access.range, writer);
+}
+
+Range whole_range(const Resource& resource) {
+  Range range;
+  if (resource.kind == ResourceKind::image) range.aspects = info(resource.format).aspects;
+  return range;
+}
+
+// Versions rotate: a frame that leaves holes would show contents of frames ago.
+void check_history(Walk& walk, ResourceId id) {
+  const Resource& resource = walk.graph.resources[id];
+  if (resource.lifetime != Lifetime::history || walk.reported[id.value]) return;
+  Access access;
+  access.resource = id;
+  access.range = whole_range(resource);
+  if (is_defined(walk, access, Fact{resource.guard, {}})) return;
+  Diagnostic diagnostic(DiagnosticKind::HistoryNotWritten, resource.span, {resource.name});
+  const Tracked& tracked = walk.tracked[id.value];
+  if (!tracked.may.empty()) {
+    const Pass& writer = walk.graph.passes.rows[tracked.may.back()];
+    diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
+  }
+  walk.checker.diagnostics.report(std::move(diagnostic));
+}
+
+}  // namespace
+
+void check_definitions(Checker& checker, const Graph& graph) {
+  Walk walk{checker, graph, {}, checker.program.features.rows, {}};
+  walk.tracked.resize(graph.resources.size());
+  walk.reported.resize(graph.resources.size());
+  for (uint32_t id = 0; id < graph.resources.size(); ++id)
+    if (defined_from_start(graph.resources.rows[id])) walk.tracked[id].whole.always = true;
+  for (uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
+    const Pass& row = graph.passes.rows[pass];
+    const Fact when{row.guard, row.conditions};
+    for (const Access& access : row.accesses) read(walk, pass, access, when);
+    for (const Access& access : row.accesses) write(walk, pass, access, when);
+  }
+  for (uint32_t id = 0; id < graph.resources.size(); ++id) check_history(walk, ResourceId{size_t{id}});
+}
+
+}  // namespace rg::dsl

@@ -1,0 +1,259 @@
+// What one pass may do with what it names: kinds, formats, stages, names, conflicts.
+#include <algorithm>
+#include <unordered_map>
+
+#include "dsl/check_state.h"
+
+namespace rg::dsl {
+namespace {
+
+struct Rules {
+  Checker& checker;
+  const Graph& graph;
+  const Pass& pass;
+  const Resource& resource(const Access& access) const { return graph.resources[access.resource]; }
+};
+
+const char* word_of(Role role) {
+  constexpr const char* kWords[] = {"sampled", "storage", "uniform", "vertex", "index", "indirect", "color", "depth", "depth readonly", "stencil", "input",
+                                    "resolve_src", "resolve_dst", "copy_src", "copy_dst", "blit_src", "blit_dst", "clear_dst", "fill_dst", "update_dst", "host_read",
+                                    "host_write", "present", "undefined"};
+  return kWords[static_cast<size_t>(role)];
+}
+
+const char* word_of(PassKind kind) {
+  constexpr const char* kWords[] = {"raster", "compute", "transfer", "host"};
+  return kWords[static_cast<size_t>(kind)];
+}
+
+bool of_images(Role role) {
+  switch (role) {
+    case Role::uniform:
+    case Role::vertex:
+    case Role::index:
+    case Role::indirect:
+    case Role::fill_dst:
+    case Role::update_dst: return false;
+    default: return true;
+  }
+}
+
+bool of_buffers(Role role) {
+  switch (role) {
+    case Role::storage:
+    case Role::copy_src:
+    case Role::copy_dst:
+    case Role::host_read:
+    case Role::host_write: return true;
+    default: return !of_images(role);
+  }
+}
+
+bool of_pass(Role role, PassKind kind) {
+  switch (role) {
+    case Role::sampled:
+    case Role::storage:
+    case Role::uniform: return kind == PassKind::raster || kind == PassKind::compute;
+    case Role::indirect: return kind == PassKind::raster || kind == PassKind::compute;
+    case Role::vertex:
+    case Role::index:
+    case Role::input:
+    case Role::color:
+    case Role::depth:
+    case Role::depth_readonly:
+    case Role::stencil: return kind == PassKind::raster;
+    case Role::resolve_dst: return kind == PassKind::raster || kind == PassKind::transfer;
+    case Role::host_read:
+    case Role::host_write: return kind == PassKind::host;
+    default: return kind == PassKind::transfer;
+  }
+}
+
+bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
+
+bool check_role(const Rules& rules, const Access& access) {
+  const Resource& resource = rules.resource(access);
+  const bool image = resource.kind == ResourceKind::image;
+  if (!(image ? of_images(access.role) : of_buffers(access.role))) {
+    rules.checker.report(DiagnosticKind::RoleOfKind, access.span, {resource.name, image ? "image" : "buffer", word_of(access.role)})
+        .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
+    return false;
+  }
+  if (of_pass(access.role, rules.pass.kind)) return true;
+  rules.checker.report(DiagnosticKind::RoleOfPass, access.span, {word_of(rules.pass.kind), resource.name, word_of(access.role)});
+  return false;
+}
+
+void report_format(const Rules& rules, DiagnosticKind kind, const Access& access, std::vector<std::string> more = {}) {
+  const Resource& image = rules.resource(access);
+  std::vector<std::string> arguments = {image.name, name(image.format)};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  rules.checker.report(kind, access.span, std::move(arguments)).note(DiagnosticKind::DeclaredHere, image.span, {image.name});
+}
+
+void check_attachment_format(const Rules& rules, const Access& access, const FormatInfo& format) {
+  if (format.is_block()) return report_format(rules, DiagnosticKind::BlockFormatUse, access, {"be an attachment"});
+  if (access.role == Role::color && !format.is_color()) return report_format(rules, DiagnosticKind::ColorOfDepth, access);
+  if (access.role == Role::color && access.blend.enabled && format.is_integer()) return report_format(rules, DiagnosticKind::BlendsIntegers, access);
+  const bool depth = access.role == Role::depth || access.role == Role::depth_readonly;
+  if (depth && (format.aspects & aspect_depth) == 0) report_format(rules, DiagnosticKind::DepthOfColor, access, {"depth"});
+  if (access.role == Role::stencil && (format.aspects & aspect_stencil) == 0) report_format(rules, DiagnosticKind::DepthOfColor, access, {"stencil"});
+}
+
+void check_storage_format(const Rules& rules, const Access& access, const FormatInfo& format) {
+  if (format.is_block()) return report_format(rules, DiagnosticKind::BlockFormatUse, access, {"be used as storage"});
+  const bool shared_exponent = rules.resource(access).format == Format::rgb9e5;
+  const bool fits = format.is_color() && format.numeric != Numeric::srgb && !shared_exponent && rules.resource(access).format != Format::bgra8;
+  if (!fits) report_format(rules, DiagnosticKind::StorageFormat, access);
+}
+
+void check_sampler(const Rules& rules, const Access& access, const FormatInfo& format) {
+  if (!access.sampler.valid()) return;
+  const Sampler& sampler = rules.checker.program.samplers[access.sampler];
+  const Resource& image = rules.resource(access);
+  if (sampler.compare && access.range.aspects != aspect_depth) {
+    rules.checker.report(DiagnosticKind::ComparesColor, access.span, {sampler.name, image.name, format.name}).note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
+    return;
+  }
+  const bool integers = format.is_integer() || access.range.aspects == aspect_stencil;
+  if (integers && (sampler.filter == Filter::linear || sampler.mip_filter == Filter::linear))
+    rules.checker.report(DiagnosticKind::FiltersIntegers, access.span, {sampler.name, image.name, format.name}).note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
+}
+
+void check_mips(const Rules& rules, const Access& access) {
+  const Resource& image = rules.resource(access);
+  const bool one_level = is_attachment(access.role) || access.role == Role::storage || access.role == Role::input || access.role == Role::blit_src ||
+                         access.role == Role::blit_dst || access.role == Role::resolve_src || access.role == Role::resolve_dst;
+  const uint32_t mips = mip_count(image, access.range);
+  if (!one_level || mips == 1) return;
+  rules.checker.report(DiagnosticKind::OneMipNeeded, access.span, {image.name, std::to_string(mips), word_of(access.role)})
+      .note(DiagnosticKind::DeclaredHere, image.span, {image.name});
+}
+
+void check_image_use(const Rules& rules, const Access& access) {
+  const FormatInfo& format = info(rules.resource(access).format);
+  if (is_attachment(access.role)) check_attachment_format(rules, access, format);
+  if (access.role == Role::storage) check_storage_format(rules, access, format);
+  if (access.role == Role::sampled) check_sampler(rules, access, format);
+  check_mips(rules, access);
+}
+
+void check_stages(const Rules& rules, const Access& access) {
+  constexpr uint32_t kRaster = stage_vertex | stage_tess_control | stage_tess_eval | stage_geometry | stage_fragment;
+  const uint32_t allowed = rules.pass.kind == PassKind::raster ? kRaster : rules.pass.kind == PassKind::compute ? uint32_t{stage_compute} : rules.pass.kind == PassKind::transfer ? uint32_t{stage_transfer} : uint32_t{stage_host};
+  if ((access.stages & ~allowed) != 0) rules.checker.report(DiagnosticKind::StageOfPass, access.span, {word_of(rules.pass.kind)});
+}
+
+// ---- attachments of one pass go together ------------------------------------------------------------------------
+
+int64_t side(const Rules& rules, ExprId axis, uint32_t mip, const std::vector<int64_t>& extents) {
+  return axis.valid() ? std::max<int64_t>(evaluate(rules.checker.program, axis, extents) >> mip, 1) : 1;
+}
+
+std::string size_text(const Rules& rules, const Access& access, const std::vector<int64_t>& extents) {
+  const Resource& image = rules.resource(access);
+  return std::to_string(side(rules, image.width, access.range.mip, extents)) + "x" + std::to_string(side(rules, image.height, access.range.mip, extents));
+}
+
+void compare_attachments(const Rules& rules, const Access& first, const Access& other) {
+  const Resource &a = rules.resource(first), &b = rules.resource(other);
+  const auto report = [&](DiagnosticKind kind, std::string one, std::string two) {
+    rules.checker.report(kind, other.span, {b.name, std::move(one), std::move(two)}).note(DiagnosticKind::OtherAttachment, first.span);
+  };
+  const bool same_formula = a.width == b.width && a.height == b.height && first.range.mip == other.range.mip;
+  for (const auto& extents : {initial_extents(rules.checker.program), maximum_extents(rules.checker.program)}) {
+    if (same_formula) break;
+    const std::string one = size_text(rules, first, extents), two = size_text(rules, other, extents);
+    if (one != two) return report(DiagnosticKind::AttachmentSizes, two, one);
+  }
+  if (a.samples != b.samples) return report(DiagnosticKind::AttachmentSamples, std::to_string(b.samples), std::to_string(a.samples));
+  const uint32_t one = layer_count(a, first.range), two = layer_count(b, other.range);
+  if (one != two) report(DiagnosticKind::AttachmentLayers, std::to_string(two), std::to_string(one));
+}
+
+void check_attachments(const Rules& rules) {
+  const Access* first = nullptr;
+  size_t colors = 0;
+  for (const Access& access : rules.pass.accesses) {
+    if (!is_attachment(access.role)) continue;
+    colors += access.role == Role::color;
+    if (first) compare_attachments(rules, *first, access);
+    else first = &access;
+  }
+  if (colors > 8) rules.checker.report(DiagnosticKind::TooManyColors, rules.pass.span, {rules.pass.name, std::to_string(colors)});
+}
+
+// ---- accesses of one pass do not contradict each other ----------------------------------------------------------
+
+bool overlap(uint32_t a, uint32_t a_count, uint32_t b, uint32_t b_count) {
+  const uint64_t a_end = a_count == kAll ? UINT64_MAX : uint64_t{a} + a_count, b_end = b_count == kAll ? UINT64_MAX : uint64_t{b} + b_count;
+  return a < b_end && b < a_end;
+}
+
+std::optional<int64_t> known(const Rules& rules, ExprId id) {
+  if (!id.valid() || rules.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
+  return rules.checker.program.exprs[id].value;
+}
+
+// Byte ranges that are not known now may overlap.
+bool bytes_overlap(const Rules& rules, const Range& a, const Range& b) {
+  const auto a0 = known(rules, a.offset), a1 = known(rules, a.size), b0 = known(rules, b.offset), b1 = known(rules, b.size);
+  if (!a0 || !a1 || !b0 || !b1) return true;
+  return *a0 < *b0 + *b1 && *b0 < *a0 + *a1;
+}
+
+bool overlap(const Rules& rules, const Access& a, const Access& b) {
+  if (a.resource != b.resource || a.age != b.age) return false;
+  if (rules.resource(a).kind == ResourceKind::buffer) return bytes_overlap(rules, a.range, b.range);
+  return (a.range.aspects & b.range.aspects) != 0 && overlap(a.range.mip, a.range.mips, b.range.mip, b.range.mips) &&
+         overlap(a.range.layer, a.range.layers, b.range.layer, b.range.layers);
+}
+
+bool may_stand_together(const Access& a, const Access& b) {
+  if (a.mode == Mode::read && b.mode == Mode::read) return true;
+  return a.mode == Mode::atomic && b.mode == Mode::atomic && a.role == b.role;
+}
+
+void check_conflicts(const Rules& rules) {
+  std::unordered_map<uint32_t, std::vector<const Access*>> seen;  // by resource
+  for (const Access& access : rules.pass.accesses) {
+    auto& others = seen[access.resource.value];
+    for (const Access* other : others) {
+      if (!overlap(rules, *other, access) || may_stand_together(*other, access)) continue;
+      rules.checker.report(DiagnosticKind::AccessesConflict, access.span, {rules.pass.name, rules.resource(access).name, word_of(other->role), word_of(access.role)})
+          .note(DiagnosticKind::OtherAccess, other->span);
+      break;
+    }
+    others.push_back(&access);
+  }
+}
+
+void check_names(const Rules& rules) {
+  std::unordered_map<std::string, Span> seen;
+  const auto claim = [&](const std::string& name, Span span) {
+    const auto [at, fresh] = seen.emplace(name, span);
+    if (!fresh) rules.checker.report(DiagnosticKind::AccessNameTaken, span, {name}).note(DiagnosticKind::OtherAccess, at->second);
+  };
+  for (const Access& access : rules.pass.accesses)
+    if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, access.span);
+  for (const ParamsId params : rules.pass.params) claim(rules.graph.params[params].name, rules.graph.params[params].span);
+}
+
+}  // namespace
+
+void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
+  const Rules rules{checker, graph, pass};
+  bool roles_fit = true;
+  for (const Access& access : pass.accesses) {
+    check_stages(rules, access);
+    const bool fits = check_role(rules, access);
+    roles_fit = roles_fit && fits;
+    if (fits && rules.resource(access).kind == ResourceKind::image) check_image_use(rules, access);
+  }
+  if (!roles_fit) return;
+  check_attachments(rules);
+  check_conflicts(rules);
+  check_names(rules);
+}
+
+}  // namespace rg::dsl

@@ -1,0 +1,206 @@
+// Private to the check_*.cpp files: what checking knows while it walks the trees.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "dsl/check.h"
+#include "dsl/format_table.h"
+
+namespace rg::dsl {
+
+// ---- values -----------------------------------------------------------------------------------------------------
+
+// One integer: known now, or an expression over extents.
+struct Scalar64 {
+  int64_t value = 0;
+  ExprId expr;  // valid: known only when the program runs
+  bool known() const { return !expr.valid(); }
+};
+struct Value {
+  enum class Kind : uint8_t { error, integer, real, list } kind = Kind::error;
+  uint8_t axes = 1;             // integer: 1 is a number, 2 and 3 are sizes
+  Scalar64 at[3];
+  double real = 0;              // also set for known integers
+  std::vector<double> numbers;  // list
+
+  bool ok() const { return kind != Kind::error; }
+  bool known_integer() const { return kind == Kind::integer && axes == 1 && at[0].known(); }
+  bool is_number() const { return kind == Kind::real || known_integer(); }
+};
+
+// ---- names ------------------------------------------------------------------------------------------------------
+
+enum class SymbolKind : uint8_t { constant, extent, structure, interface, sampler, state, feature, condition, set, graph, technique };
+struct Symbol {
+  SymbolKind kind = SymbolKind::constant;
+  uint32_t module = 0;
+  const ast::Declaration* declaration = nullptr;
+  ast::Name name;
+  enum class Progress : uint8_t { open, running, done } progress = Progress::open;
+  uint32_t id = UINT32_MAX;  // row of the program's table; none after an error
+  Value value;               // constants
+};
+struct Visible {  // what a name means inside one module
+  uint32_t symbol = UINT32_MAX, other = UINT32_MAX;  // other: a second module declares it too
+};
+
+struct NodeKey {
+  ExprOp op = ExprOp::constant;
+  uint32_t a = 0, b = 0;
+  int64_t value = 0;
+  friend bool operator==(const NodeKey&, const NodeKey&) = default;
+};
+struct NodeHash {
+  size_t operator()(const NodeKey& key) const {
+    constexpr uint64_t kMix = 0x9E3779B97F4A7C15ull;
+    uint64_t hash = static_cast<uint64_t>(key.op);
+    for (const uint64_t part : {uint64_t{key.a}, uint64_t{key.b}, static_cast<uint64_t>(key.value)}) hash = (hash ^ part ^ (hash >> 29)) * kMix;
+    return hash;
+  }
+};
+
+struct Checker {
+  const std::vector<Module>& modules;
+  Diagnostics& diagnostics;
+  Program program;
+  std::vector<Symbol> symbols;
+  std::vector<std::unordered_map<std::string_view, Visible>> scopes;         // by module
+  std::vector<std::unordered_map<std::string_view, uint32_t>> own_names;     // by module
+  std::vector<std::unordered_map<std::string_view, uint32_t>> module_names;  // by module: modules it can see
+  std::vector<bool> used;                                                    // by symbol
+  std::unordered_map<NodeKey, ExprId, NodeHash> nodes;                       // equal expressions are one row
+  std::unordered_map<std::string, Span> public_names;                        // structs and constants: shaders and C++ see them unqualified
+  bool trees_had_errors = false;  // a name that is not found may be in what did not parse
+
+  Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
+    return diagnostics.report(kind, span, std::move(arguments));
+  }
+};
+
+// ---- places -----------------------------------------------------------------------------------------------------
+
+struct Place {  // `bloom.mip(i).layer(0)` resolved
+  ResourceId resource;
+  Range range;
+  uint32_t age = 0;
+  std::string default_name;
+  Span span;
+  bool ok() const { return resource.valid(); }
+};
+
+struct Binding {  // of a loop variable or a technique's parameter
+  std::string_view name;
+  enum class Kind : uint8_t { integer, place, params } kind = Kind::integer;
+  int64_t value = 0;
+  Place place;
+  bool writable = true;
+  ParamsId params;
+};
+
+// The graph that is being built, and where in it we are.
+struct GraphScope {
+  Graph graph;
+  uint32_t module = 0;
+  std::string prefix;               // of names inside a technique's instance
+  std::vector<Binding> bindings;    // innermost last
+  Guard guard;
+  std::vector<ConditionId> conditions;
+  std::unordered_map<std::string, ResourceId> resources;
+  std::unordered_map<std::string, PassId> passes;
+  std::unordered_map<std::string, ParamsId> params;
+  std::unordered_map<std::string, bool> families;  // names declared with an index: `pyramid` of `pyramid[2]`
+  std::unordered_map<std::string, bool> failed;    // declared, but wrong: stay silent about them
+  std::unordered_map<std::string, uint32_t> interfaces;  // parameter -> symbol
+  std::vector<bool> resource_used;
+  uint32_t use_depth = 0;
+  uint64_t unrolled = 0;
+  bool incomplete = false;          // some access was dropped after an error: whole-graph facts would mislead
+};
+
+// ---- check_names.cpp --------------------------------------------------------------------------------------------
+void collect_names(Checker& checker);
+const char* describe(SymbolKind kind);
+// Reports what is wrong and returns none; `expr` is a name or `module.name`.
+std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast::Expr& expr, SymbolKind kind);
+std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast::Name& name, SymbolKind kind);
+// Silent: for expressions, where a name may be several things.
+std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, const ast::Expr& expr);
+std::string closest(std::string_view word, const std::vector<std::string_view>& candidates);
+std::string spelled(const ast::Expr& expr);
+// Reports a repeated name with a note at the first.
+void report_duplicate(Checker& checker, const ast::Name& name, Span first);
+
+// ---- check_value.cpp --------------------------------------------------------------------------------------------
+Value evaluate_expr(Checker& checker, GraphScope* scope, uint32_t module, const ast::Expr& expr);
+std::optional<int64_t> evaluate_integer(Checker& checker, GraphScope* scope, uint32_t module, const ast::Expr& expr, int64_t least, int64_t greatest);
+std::optional<double> evaluate_number(Checker& checker, GraphScope* scope, uint32_t module, const ast::Expr& expr);
+ExprId add_node(Checker& checker, const Expr& node);
+ExprId to_expr(Checker& checker, Scalar64 scalar);
+// False, after a report, if a struct or constant of another module has the name.
+bool claim_public_name(Checker& checker, const ast::Name& name);
+Scalar64 combine(Checker& checker, ExprOp op, Scalar64 a, Scalar64 b, Span span);
+Value integer_value(int64_t value);
+const Value& constant_value(Checker& checker, uint32_t symbol);
+ExtentId extent_of(Checker& checker, uint32_t symbol);
+
+// ---- check_types.cpp --------------------------------------------------------------------------------------------
+StructId struct_of(Checker& checker, uint32_t symbol);
+StructId find_struct(Checker& checker, uint32_t module, const ast::Expr& name);
+StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration);
+// The element of `T`, `T[n]`, `T[]`; count is left to the caller.
+std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& type);
+
+// ---- check_states.cpp -------------------------------------------------------------------------------------------
+SamplerId sampler_of(Checker& checker, uint32_t symbol);
+StateId state_of(Checker& checker, uint32_t symbol);
+FeatureId feature_of(Checker& checker, uint32_t symbol);
+ConditionId condition_of(Checker& checker, uint32_t symbol);
+void check_engine_set(Checker& checker, uint32_t symbol);
+std::optional<Compare> find_compare(std::string_view word);
+
+// ---- check_resources.cpp ----------------------------------------------------------------------------------------
+void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
+void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDeclaration& graph);
+ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects);
+std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::optional<ast::Expr>& index);
+std::optional<Role> find_role(std::string_view word);
+uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
+
+// ---- check_places.cpp -------------------------------------------------------------------------------------------
+Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr);
+// Silent probe: whether `expr` begins with the name of a resource.
+bool names_resource(const GraphScope& scope, const ast::Expr& expr);
+Value size_of(Checker& checker, GraphScope& scope, const Place& place);
+uint32_t mip_count(const Resource& resource, const Range& range);
+uint32_t layer_count(const Resource& resource, const Range& range);
+
+// ---- check_passes.cpp, check_accesses.cpp, check_transfers.cpp --------------------------------------------------
+void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaration& declaration);
+struct PassScope {
+  Pass pass;
+  std::vector<bool> may;       // by access: the work may leave its range as it was
+  bool dropped = false;        // some statement was wrong
+};
+std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const ast::AccessStatement& statement);
+uint32_t add_plain_access(GraphScope& scope, PassScope& out, const Place& place, Mode mode, Role role);
+void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::TransferStatement& statement);
+void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
+void merge_reads_and_writes(Pass& pass);
+void name_hidden_accesses(Pass& pass);
+bool is_shader_role(Role role);
+bool is_written(Mode mode);
+
+// ---- check_control.cpp ------------------------------------------------------------------------------------------
+void check_graph(Checker& checker, uint32_t symbol);
+
+// ---- rules over the finished graph ------------------------------------------------------------------------------
+void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass);
+void check_definitions(Checker& checker, const Graph& graph);
+void check_unused(Checker& checker, const GraphScope& scope);
+void check_block_layouts(Checker& checker, const Graph& graph);
+
+}  // namespace rg::dsl

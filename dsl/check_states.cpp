@@ -1,0 +1,174 @@
+// Samplers, states, features, conditions, sets of the engine.
+#include <algorithm>
+
+#include "dsl/check_state.h"
+
+namespace rg::dsl {
+namespace {
+
+template <class Enum>
+struct Word {
+  std::string_view word;
+  Enum value;
+};
+
+constexpr Word<Compare> kCompares[] = {{"never", Compare::never},     {"less", Compare::less},           {"equal", Compare::equal},
+                                       {"less_equal", Compare::less_equal}, {"greater", Compare::greater}, {"not_equal", Compare::not_equal},
+                                       {"greater_equal", Compare::greater_equal}, {"always", Compare::always}};
+constexpr Word<Filter> kFilters[] = {{"nearest", Filter::nearest}, {"linear", Filter::linear}};
+constexpr Word<AddressMode> kAddresses[] = {
+    {"repeat", AddressMode::repeat}, {"mirror", AddressMode::mirror}, {"clamp", AddressMode::clamp}, {"border", AddressMode::border}};
+constexpr Word<Cull> kCulls[] = {{"none", Cull::none}, {"front", Cull::front}, {"back", Cull::back}};
+constexpr Word<bool> kFronts[] = {{"clockwise", true}, {"counter_clockwise", false}};
+constexpr Word<bool> kSwitches[] = {{"on", true}, {"off", false}};
+constexpr Word<Topology> kTopologies[] = {
+    {"points", Topology::points}, {"lines", Topology::lines}, {"triangles", Topology::triangles}, {"triangle_strip", Topology::triangle_strip}};
+
+// The value of a setting's word; reports a word that is none of `words`.
+template <class Enum, size_t Count>
+bool read_word(Checker& checker, const ast::Setting& setting, const Word<Enum> (&words)[Count], Enum& out) {
+  if (setting.names.empty() || setting.names[0].empty()) return false;
+  const ast::Name& name = setting.names[0];
+  std::vector<std::string_view> candidates;
+  std::string listed;
+  for (const Word<Enum>& row : words) {
+    if (row.word == name.text) return out = row.value, true;
+    candidates.push_back(row.word);
+    listed += (listed.empty() ? "`" : ", `") + std::string(row.word) + "`";
+  }
+  Diagnostic diagnostic(DiagnosticKind::UnknownSettingValue, name.span, {std::string(name.text), std::string(setting.word.text), listed});
+  const std::string guess = closest(name.text, candidates);
+  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  checker.diagnostics.report(std::move(diagnostic));
+  return false;
+}
+
+std::string title(const ast::Setting& setting) {
+  return std::string(setting.word.text) + (setting.second.empty() ? "" : " " + std::string(setting.second.text));
+}
+
+void report_repeated(Checker& checker, const std::vector<ast::Setting>& settings) {
+  for (size_t i = 0; i < settings.size(); ++i)
+    for (size_t j = 0; j < i; ++j) {
+      if (title(settings[i]) != title(settings[j])) continue;
+      checker.report(DiagnosticKind::RepeatedSetting, settings[i].span, {title(settings[i])}).note(DiagnosticKind::FirstIsHere, settings[j].span);
+      break;
+    }
+}
+
+void read_sampler_setting(Checker& checker, uint32_t module, const ast::Setting& setting, Sampler& sampler) {
+  const std::string_view word = setting.word.text;
+  if (word == "filter") read_word(checker, setting, kFilters, sampler.filter);
+  if (word == "mip") read_word(checker, setting, kFilters, sampler.mip_filter);
+  if (word == "address") read_word(checker, setting, kAddresses, sampler.address);
+  Compare compare{};
+  if (word == "compare" && read_word(checker, setting, kCompares, compare)) sampler.compare = compare;
+  if (word != "anisotropy" || setting.values.empty()) return;
+  const auto value = evaluate_number(checker, nullptr, module, setting.values[0]);
+  if (!value) return;
+  if (*value < 1 || *value > 16) checker.report(DiagnosticKind::OutOfRange, setting.values[0].span, {std::to_string(static_cast<int64_t>(*value)), "1", "16"});
+  sampler.max_anisotropy = static_cast<float>(*value);
+}
+
+void read_bias(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
+  if (setting.values.size() != 2) return;
+  const auto constant = evaluate_number(checker, nullptr, module, setting.values[0]);
+  const auto slope = evaluate_number(checker, nullptr, module, setting.values[1]);
+  state.depth_bias_constant = static_cast<float>(constant.value_or(0));
+  state.depth_bias_slope = static_cast<float>(slope.value_or(0));
+}
+
+void read_state_setting(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
+  const std::string_view word = setting.word.text;
+  if (word == "cull") read_word(checker, setting, kCulls, state.cull);
+  if (word == "front") read_word(checker, setting, kFronts, state.front_clockwise);
+  if (word == "topology") read_word(checker, setting, kTopologies, state.topology);
+  if (word == "bias") read_bias(checker, module, setting, state);
+  if (word == "alpha_to_coverage") state.alpha_to_coverage = true;
+  if (word == "depth" && setting.second.text == "write") read_word(checker, setting, kSwitches, state.depth_write);
+  if (word == "depth" && setting.second.text == "test") state.depth_test = read_word(checker, setting, kCompares, state.depth_compare);
+}
+
+// True for the first visit; the caller fills the row.
+bool first_visit(Symbol& symbol) {
+  if (symbol.progress != Symbol::Progress::open) return false;
+  symbol.progress = Symbol::Progress::done;
+  return true;
+}
+
+void read_feature(Checker& checker, const ast::FeatureDeclaration& node, Feature& feature) {
+  if (node.is_bool) feature.values = {"off", "on"};
+  for (size_t i = 0; i < node.values.size(); ++i) {
+    const ast::Name& value = node.values[i];
+    for (size_t j = 0; j < i; ++j)
+      if (node.values[j].text == value.text) report_duplicate(checker, value, node.values[j].span);
+    feature.values.emplace_back(value.text);
+  }
+}
+
+}  // namespace
+
+std::optional<Compare> find_compare(std::string_view word) {
+  for (const auto& row : kCompares)
+    if (row.word == word) return row.value;
+  return std::nullopt;
+}
+
+SamplerId sampler_of(Checker& checker, uint32_t symbol) {
+  if (first_visit(checker.symbols[symbol])) {
+    const Symbol& found = checker.symbols[symbol];
+    const auto& node = std::get<ast::SamplerDeclaration>(*found.declaration);
+    Sampler sampler;
+    sampler.name = std::string(node.name.text);
+    sampler.span = node.name.span;
+    report_repeated(checker, node.settings);
+    for (const ast::Setting& setting : node.settings) read_sampler_setting(checker, found.module, setting, sampler);
+    checker.symbols[symbol].id = checker.program.samplers.add(std::move(sampler)).value;
+  }
+  return SamplerId{size_t{checker.symbols[symbol].id}};
+}
+
+StateId state_of(Checker& checker, uint32_t symbol) {
+  if (first_visit(checker.symbols[symbol])) {
+    const Symbol& found = checker.symbols[symbol];
+    const auto& node = std::get<ast::StateDeclaration>(*found.declaration);
+    State state;
+    state.name = std::string(node.name.text);
+    state.span = node.name.span;
+    report_repeated(checker, node.settings);
+    for (const ast::Setting& setting : node.settings) read_state_setting(checker, found.module, setting, state);
+    checker.symbols[symbol].id = checker.program.states.add(std::move(state)).value;
+  }
+  return StateId{size_t{checker.symbols[symbol].id}};
+}
+
+FeatureId feature_of(Checker& checker, uint32_t symbol) {
+  if (first_visit(checker.symbols[symbol])) {
+    const auto& node = std::get<ast::FeatureDeclaration>(*checker.symbols[symbol].declaration);
+    Feature feature;
+    feature.name = std::string(node.name.text);
+    feature.span = node.name.span;
+    read_feature(checker, node, feature);
+    checker.symbols[symbol].id = checker.program.features.add(std::move(feature)).value;
+  }
+  return FeatureId{size_t{checker.symbols[symbol].id}};
+}
+
+ConditionId condition_of(Checker& checker, uint32_t symbol) {
+  if (first_visit(checker.symbols[symbol])) {
+    const ast::Name name = checker.symbols[symbol].name;
+    checker.symbols[symbol].id = checker.program.conditions.add({std::string(name.text), name.span}).value;
+  }
+  return ConditionId{size_t{checker.symbols[symbol].id}};
+}
+
+void check_engine_set(Checker& checker, uint32_t symbol) {
+  const auto& node = std::get<ast::EngineSetDeclaration>(*checker.symbols[symbol].declaration);
+  if (node.set != 0 && node.set != 2) {
+    checker.report(DiagnosticKind::EngineSetNumber, node.set_span, {std::string(node.name.text)});
+    return;
+  }
+  checker.program.engine_sets.add({std::string(node.name.text), static_cast<uint32_t>(node.set), std::string(node.glsl), node.name.span});
+}
+
+}  // namespace rg::dsl

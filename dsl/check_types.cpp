@@ -1,0 +1,136 @@
+// Structs and the types of their fields.
+#include <algorithm>
+
+#include "dsl/check_state.h"
+#include "dsl/layout.h"
+
+namespace rg::dsl {
+namespace {
+
+struct NamedType {
+  std::string_view name;
+  Scalar scalar;
+  uint8_t rows, columns;
+};
+constexpr NamedType kTypes[] = {
+    {"f32", Scalar::f32, 1, 1},   {"i32", Scalar::i32, 1, 1},   {"u32", Scalar::u32, 1, 1},   {"bool", Scalar::boolean, 1, 1},
+    {"vec2", Scalar::f32, 2, 1},  {"vec3", Scalar::f32, 3, 1},  {"vec4", Scalar::f32, 4, 1},  {"ivec2", Scalar::i32, 2, 1},
+    {"ivec3", Scalar::i32, 3, 1}, {"ivec4", Scalar::i32, 4, 1}, {"uvec2", Scalar::u32, 2, 1}, {"uvec3", Scalar::u32, 3, 1},
+    {"uvec4", Scalar::u32, 4, 1}, {"mat3", Scalar::f32, 3, 3},  {"mat4", Scalar::f32, 4, 4},  {"mat3x4", Scalar::f32, 4, 3},
+};
+
+const NamedType* find_type(std::string_view name) {
+  const auto* at = std::find_if(std::begin(kTypes), std::end(kTypes), [&](const NamedType& row) { return row.name == name; });
+  return at == std::end(kTypes) ? nullptr : at;
+}
+
+void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& name) {
+  if (checker.trees_had_errors) return;
+  std::vector<std::string_view> candidates;
+  for (const NamedType& type : kTypes) candidates.push_back(type.name);
+  for (const Symbol& symbol : checker.symbols)
+    if (symbol.kind == SymbolKind::structure && checker.scopes[module].count(symbol.name.text)) candidates.push_back(symbol.name.text);
+  Diagnostic diagnostic(DiagnosticKind::UnknownType, name.span, {std::string(name.text)});
+  const std::string guess = closest(name.text, candidates);
+  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  checker.diagnostics.report(std::move(diagnostic));
+}
+
+std::optional<Field> read_field(Checker& checker, uint32_t module, const ast::FieldDeclaration& node) {
+  constexpr int64_t kMaxLength = 1 << 24;
+  const std::optional<Type> element = element_type(checker, module, node.type);
+  if (!element) return std::nullopt;
+  Field field;
+  field.name = std::string(node.name.text);
+  field.type = *element;
+  field.span = node.name.span;
+  if (node.type.unsized) {
+    checker.report(DiagnosticKind::UnsizedField, node.type.span, {field.name});
+    return std::nullopt;
+  }
+  if (!node.type.count) return field;
+  const auto count = evaluate_integer(checker, nullptr, module, *node.type.count, 1, kMaxLength);
+  if (!count) return std::nullopt;
+  field.type.count = static_cast<uint32_t>(*count);
+  return field;
+}
+
+bool reserved_in_glsl(std::string_view name) { return name.substr(0, 3) == "gl_" || name.find("__") != std::string_view::npos; }
+
+bool read_fields(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration, Struct& record) {
+  bool ok = true;
+  std::unordered_map<std::string_view, Span> seen;
+  for (const ast::FieldDeclaration& node : declaration.fields) {
+    if (node.name.empty()) return false;
+    const auto [at, fresh] = seen.emplace(node.name.text, node.name.span);
+    if (!fresh) report_duplicate(checker, node.name, at->second), ok = false;
+    if (reserved_in_glsl(node.name.text)) checker.report(DiagnosticKind::ReservedName, node.name.span, {std::string(node.name.text)}), ok = false;
+    std::optional<Field> field = read_field(checker, module, node);
+    if (field) record.fields.push_back(std::move(*field));
+    ok = ok && field.has_value();
+  }
+  return ok;
+}
+
+}  // namespace
+
+std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& node) {
+  if (node.name.kind == ast::ExprKind::error) return std::nullopt;
+  Type type;
+  if (node.name.kind == ast::ExprKind::name) {
+    if (const NamedType* named = find_type(node.name.text)) {
+      type.scalar = named->scalar;
+      type.rows = named->rows;
+      type.columns = named->columns;
+      return type;
+    }
+    if (!peek_symbol(checker, module, node.name)) {
+      report_unknown_type(checker, module, node.name);
+      return std::nullopt;
+    }
+  }
+  type.record = find_struct(checker, module, node.name);
+  if (!type.record.valid()) return std::nullopt;
+  return type;
+}
+
+StructId find_struct(Checker& checker, uint32_t module, const ast::Expr& name) {
+  const auto symbol = find_symbol(checker, module, name, SymbolKind::structure);
+  return symbol ? struct_of(checker, *symbol) : StructId{};
+}
+
+StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration) {
+  Struct record;
+  record.name = std::string(declaration.name.text);
+  record.span = declaration.name.span;
+  if (declaration.name.empty() || !read_fields(checker, module, declaration, record)) return {};
+  if (record.fields.empty()) {
+    checker.report(DiagnosticKind::EmptyStruct, record.span, {record.name});
+    return {};
+  }
+  if (!lay_out(checker.program.structs, record)) {
+    checker.report(DiagnosticKind::StructTooLarge, record.span, {record.name});
+    return {};
+  }
+  if (!claim_public_name(checker, declaration.name)) return {};
+  return checker.program.structs.add(std::move(record));
+}
+
+StructId struct_of(Checker& checker, uint32_t symbol) {
+  if (checker.symbols[symbol].progress == Symbol::Progress::running) {
+    const ast::Name name = checker.symbols[symbol].name;
+    checker.report(DiagnosticKind::NeedsItself, name.span, {std::string(name.text)});
+    checker.symbols[symbol].progress = Symbol::Progress::done;
+    return {};
+  }
+  if (checker.symbols[symbol].progress == Symbol::Progress::open) {
+    checker.symbols[symbol].progress = Symbol::Progress::running;
+    const auto& node = std::get<ast::StructDeclaration>(*checker.symbols[symbol].declaration);
+    checker.symbols[symbol].id = declare_struct(checker, checker.symbols[symbol].module, node).value;
+    checker.symbols[symbol].progress = Symbol::Progress::done;
+  }
+  const uint32_t id = checker.symbols[symbol].id;
+  return id == UINT32_MAX ? StructId{} : StructId{size_t{id}};
+}
+
+}  // namespace rg::dsl

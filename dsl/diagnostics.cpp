@@ -1,0 +1,78 @@
+#include "dsl/diagnostics.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "dsl/check_macro.h"
+
+namespace rg::dsl {
+namespace {
+
+constexpr auto error = Severity::error;
+constexpr auto warning = Severity::warning;
+[[maybe_unused]] constexpr auto note = Severity::note;
+
+constexpr DiagnosticRow kRows[] = {
+#define RG_DIAGNOSTIC(name, code, severity, message) {#name, code, severity, message},
+#include "dsl/diagnostic_kind.def"
+#undef RG_DIAGNOSTIC
+};
+
+auto key(const Diagnostic& d) { return std::make_tuple(d.span.file.value, d.span.begin, d.span.end, row(d.kind).code, std::cref(d.arguments)); }
+
+}  // namespace
+
+const DiagnosticRow& row(DiagnosticKind kind) { return kRows[static_cast<size_t>(kind)]; }
+
+std::vector<DiagnosticKind> all_diagnostic_kinds() {
+  std::vector<DiagnosticKind> kinds;
+  for (size_t i = 0; i < std::size(kRows); ++i) kinds.push_back(static_cast<DiagnosticKind>(i));
+  return kinds;
+}
+
+Diagnostic::Diagnostic(DiagnosticKind kind_, Span span_, std::vector<std::string> arguments_)
+    : kind(kind_), span(span_), arguments(std::move(arguments_)) {}
+
+Diagnostic& Diagnostic::note(DiagnosticKind note_kind, Span note_span, std::vector<std::string> note_arguments) {
+  notes.emplace_back(note_kind, note_span, std::move(note_arguments));
+  return *this;
+}
+
+Diagnostic& Diagnostic::fix(Span fix_span, std::string text) {
+  fixes.push_back({fix_span, std::move(text)});
+  return *this;
+}
+
+std::string Diagnostic::message() const {
+  std::string text;
+  const std::string_view pattern = row(kind).message;
+  for (size_t at = 0; at < pattern.size(); ++at) {
+    const bool slot = pattern[at] == '{' && at + 2 < pattern.size() && pattern[at + 2] == '}';
+    if (!slot) {
+      text += pattern[at];
+      continue;
+    }
+    const auto index = static_cast<size_t>(pattern[at + 1] - '0');
+    RG_CHECK(index < arguments.size(), "a diagnostic lacks an argument of its message");
+    text += arguments[index];
+    at += 2;
+  }
+  return text;
+}
+
+Diagnostic& Diagnostics::report(Diagnostic diagnostic) { return rows_.emplace_back(std::move(diagnostic)); }
+Diagnostic& Diagnostics::report(DiagnosticKind kind, Span span, std::vector<std::string> arguments) {
+  return report(Diagnostic(kind, span, std::move(arguments)));
+}
+
+bool Diagnostics::has_errors() const {
+  return std::any_of(rows_.begin(), rows_.end(), [](const Diagnostic& d) { return row(d.kind).severity == Severity::error; });
+}
+
+void Diagnostics::sort() {
+  std::stable_sort(rows_.begin(), rows_.end(), [](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
+  const auto same = [](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); };
+  rows_.erase(std::unique(rows_.begin(), rows_.end(), same), rows_.end());
+}
+
+}  // namespace rg::dsl

@@ -1,0 +1,111 @@
+// Diagnostics as text for a person and as JSON for a program.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "dsl/diagnostics.h"
+
+namespace rg::dsl {
+namespace {
+
+constexpr const char* kSeverityNames[] = {"error", "warning", "note"};
+constexpr const char* kSeverityColours[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
+constexpr size_t kMaxSnippet = 160;  // columns of a source line that are shown
+
+struct Printer {
+  const SourceFiles& files;
+  bool colour;
+  std::string out;
+
+  std::string paint(const char* code, const std::string& text) const { return colour ? code + text + "\033[0m" : text; }
+};
+
+const SourceFile* file_of(const SourceFiles& files, Span span) {
+  return span.file.valid() && span.file.value < files.size() ? &files[span.file] : nullptr;
+}
+
+// Tabs are kept in the marker line, so that it lines up whatever their width.
+std::string padding(std::string_view line, size_t columns) {
+  std::string pad(std::min(columns, line.size()), ' ');
+  for (size_t i = 0; i < pad.size(); ++i)
+    if (line[i] == '\t') pad[i] = '\t';
+  return pad + std::string(columns > line.size() ? columns - line.size() : 0, ' ');
+}
+
+void print_snippet(Printer& printer, const SourceFile& file, Span span) {
+  const Position at = file.position(span.begin);
+  std::string_view line = file.line(at.line);
+  size_t column = at.column - 1;
+  const size_t from = column > kMaxSnippet / 2 && line.size() > kMaxSnippet ? column - kMaxSnippet / 2 : 0;
+  line = line.substr(std::min(from, line.size()), kMaxSnippet);
+  column -= from;
+  const size_t width = std::max<size_t>(1, std::min<size_t>(span.end - span.begin, line.size() > column ? line.size() - column : 1));
+  printer.out += fmt::format("{:>6} | {}\n", at.line, line);
+  printer.out += fmt::format("       | {}{}\n", padding(line, column), printer.paint("\033[1;32m", "^" + std::string(width - 1, '~')));
+}
+
+void print_fix(Printer& printer, const FixIt& fix) {
+  const SourceFile* file = file_of(printer.files, fix.span);
+  if (!file) return;
+  const std::string old = file->text.substr(fix.span.begin, fix.span.end - fix.span.begin);
+  if (old.empty()) printer.out += fmt::format("       = fix: insert `{}`\n", fix.text);
+  if (!old.empty() && fix.text.empty()) printer.out += fmt::format("       = fix: remove `{}`\n", old);
+  if (!old.empty() && !fix.text.empty()) printer.out += fmt::format("       = fix: write `{}` instead of `{}`\n", fix.text, old);
+}
+
+void print_one(Printer& printer, const Diagnostic& diagnostic) {
+  const DiagnosticRow& info = row(diagnostic.kind);
+  const auto severity = static_cast<size_t>(info.severity);
+  const SourceFile* file = file_of(printer.files, diagnostic.span);
+  if (file) {
+    const Position at = file->position(diagnostic.span.begin);
+    printer.out += fmt::format("{}:{}:{}: ", file->path, at.line, at.column);
+  }
+  const std::string head = fmt::format("{}[{}]:", kSeverityNames[severity], info.code);
+  printer.out += printer.paint(kSeverityColours[severity], head) + " " + diagnostic.message() + "\n";
+  if (file) print_snippet(printer, *file, diagnostic.span);
+  for (const FixIt& fix : diagnostic.fixes) print_fix(printer, fix);
+  for (const Diagnostic& child : diagnostic.notes) print_one(printer, child);
+}
+
+nlohmann::ordered_json place(const SourceFiles& files, Span span) {
+  const SourceFile* file = file_of(files, span);
+  if (!file) return {{"file", nullptr}, {"line", 0}, {"column", 0}, {"end_line", 0}, {"end_column", 0}};
+  const Position begin = file->position(span.begin), end = file->position(span.end);
+  return {{"file", file->path}, {"line", begin.line}, {"column", begin.column}, {"end_line", end.line}, {"end_column", end.column}};
+}
+
+nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagnostic) {
+  const DiagnosticRow& info = row(diagnostic.kind);
+  nlohmann::ordered_json json = {{"code", info.code},
+                                 {"name", info.name},
+                                 {"severity", kSeverityNames[static_cast<size_t>(info.severity)]},
+                                 {"message", diagnostic.message()}};
+  json.update(place(files, diagnostic.span));
+  json["notes"] = nlohmann::ordered_json::array();
+  for (const Diagnostic& child : diagnostic.notes) json["notes"].push_back(to_json(files, child));
+  json["fixes"] = nlohmann::ordered_json::array();
+  for (const FixIt& fix : diagnostic.fixes) {
+    nlohmann::ordered_json entry = place(files, fix.span);
+    entry["text"] = fix.text;
+    json["fixes"].push_back(entry);
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour) {
+  Printer printer{files, colour, {}};
+  for (const Diagnostic& diagnostic : diagnostics.rows()) print_one(printer, diagnostic);
+  return printer.out;
+}
+
+std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Diagnostic& diagnostic : diagnostics.rows()) json.push_back(to_json(files, diagnostic));
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rg::dsl

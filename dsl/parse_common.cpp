@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+
+#include "dsl/parser_state.h"
+
+namespace rg::dsl {
+namespace {
+
+using Words = std::initializer_list<std::string_view>;
+
+constexpr std::string_view kDeclarations[] = {"module", "import",  "target",  "const",     "extent", "struct", "interface",
+                                 "sampler", "state", "feature", "condition", "set",    "graph",  "technique"};
+constexpr std::string_view kItems[] = {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"};
+constexpr std::string_view kStatements[] = {"read",  "write", "update",  "atomic",     "color",    "depth", "stencil", "resolve", "params", "shader", "state", "dispatch",
+                               "draw",  "bind",  "copy",    "blit",       "clear",    "fill",  "host",    "after",   "keep",   "layout", "fullscreen"};
+
+template <class List>
+bool contains(const List& words, std::string_view word) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+std::string found(const Parser& parser) {
+  const Token& token = parser.peek();
+  if (token.kind == TokenKind::end_of_file) return describe(token.kind);
+  const std::string_view shown = parser.word().substr(0, 40);
+  return token.kind == TokenKind::string ? std::string(shown) : "`" + std::string(shown) + "`";
+}
+
+uint32_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<uint32_t> row(b.size() + 1);
+  for (uint32_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (uint32_t i = 1; i <= a.size(); ++i) {
+    uint32_t diagonal = row[0];
+    row[0] = i;
+    for (uint32_t j = 1; j <= b.size(); ++j) {
+      const uint32_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+bool begins_declaration(std::string_view word) { return contains(kDeclarations, word); }
+bool begins_item(std::string_view word) { return contains(kItems, word); }
+bool begins_statement(std::string_view word) { return contains(kStatements, word); }
+
+std::string closest(std::string_view word, const std::vector<std::string_view>& candidates) {
+  constexpr size_t kLongest = 64;
+  if (word.size() > kLongest) return {};
+  uint32_t best = static_cast<uint32_t>(std::max<size_t>(1, word.size() / 3)) + 1;
+  std::string_view found_word;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.size() > word.size() + best || candidate.size() + best < word.size() || candidate == word) continue;
+    const uint32_t distance = edit_distance(word, candidate);
+    if (distance < best) best = distance, found_word = candidate;
+  }
+  return std::string(found_word);
+}
+
+Span Parser::since(uint32_t begin) const { return {file, begin, std::max(begin, previous_end())}; }
+
+bool Parser::accept(TokenKind kind) {
+  if (!is(kind)) return false;
+  take();
+  return true;
+}
+
+bool Parser::accept_word(std::string_view spelling) {
+  if (!is_word(spelling)) return false;
+  take();
+  return true;
+}
+
+bool Parser::expect(TokenKind kind) {
+  if (accept(kind)) return true;
+  expected(describe(kind));
+  return false;
+}
+
+ast::Name Parser::take_name() {
+  const ast::Name name{word(), here()};
+  take();
+  return name;
+}
+
+ast::Name Parser::expect_name(const char* what) {
+  if (is(TokenKind::identifier)) return take_name();
+  expected(what);
+  return {{}, here()};
+}
+
+ast::Name Parser::expect_one_of(const char* what, Words words) {
+  if (is(TokenKind::identifier) && contains(words, word())) return take_name();
+  const bool is_name = is(TokenKind::identifier) && !peek().starts_line;
+  if (!is_name) {
+    expected(what);
+    return {{}, here()};
+  }
+  Diagnostic diagnostic(DiagnosticKind::UnexpectedToken, here(), {what, found(*this)});
+  const std::string guess = closest(word(), words);
+  if (!guess.empty()) diagnostic.fix(here(), guess);
+  complain(std::move(diagnostic));
+  const ast::Name name{{}, here()};
+  take();
+  return name;
+}
+
+void Parser::complain(Diagnostic diagnostic) {
+  any_error = true;
+  if (!silent) diagnostics.report(std::move(diagnostic));
+  silent = true;
+}
+
+// What is missing at the end of a line is shown there, not at the beginning of the next.
+void Parser::expected(const std::string& what) {
+  if (is(TokenKind::invalid)) {  // the lexer has complained
+    any_error = silent = true;
+    return;
+  }
+  if (at == 0 || !peek().starts_line) return complain({DiagnosticKind::UnexpectedToken, here(), {what, found(*this)}});
+  const Token& last = tokens[at - 1];
+  complain({DiagnosticKind::ExpectedAfter, span(last), {what, std::string(text_of(last, text).substr(0, 40))}});
+}
+
+Nested::Nested(Parser& parser_) : parser(parser_), fits(++parser_.nesting <= kMaxNesting) {
+  if (!fits) parser.complain({DiagnosticKind::NestingTooDeep, parser.here(), {std::to_string(kMaxNesting)}});
+}
+
+// A word at the start of a line that belongs further out: the block was not closed.
+bool starts_outer(const Parser& parser, Level level) {
+  if (level == Level::file || !parser.peek().starts_line || !parser.is(TokenKind::identifier)) return false;
+  const std::string_view word = parser.word();
+  const bool named = parser.is(TokenKind::identifier, 1);
+  if (level == Level::fields) return named && (begins_declaration(word) || begins_item(word)) && !parser.is(TokenKind::colon, 1);
+  const bool opens_state = word == "state" && parser.is(TokenKind::left_brace, 2);
+  if (level == Level::graph) return (begins_declaration(word) || opens_state) && (named || parser.is(TokenKind::string, 1));
+  if (begins_statement(word) && !opens_state) return false;
+  return (begins_item(word) || begins_declaration(word)) && named;
+}
+
+void resynchronise(Parser& parser, Level level) {
+  uint32_t depth = 0;
+  for (; !parser.done(); parser.take()) {
+    if (parser.is(TokenKind::left_brace)) ++depth;
+    if (parser.is(TokenKind::right_brace) && depth-- == 0) break;
+    if (!parser.peek().starts_line || !parser.is(TokenKind::identifier)) continue;
+    if (starts_outer(parser, level)) break;
+    if (depth > 0) continue;
+    const std::string_view word = parser.word();
+    if (level == Level::file && begins_declaration(word)) break;
+    if (level == Level::graph && begins_item(word)) break;
+    if (level == Level::pass && begins_statement(word)) break;
+    if (level == Level::fields && (parser.is(TokenKind::colon, 1) || begins_statement(word))) break;
+  }
+  parser.silent = false;
+}
+
+bool open_block(Parser& parser) {
+  if (parser.silent) {  // the heading was wrong: its block, if it follows, is still worth reading
+    size_t ahead = 0;
+    while (!parser.is(TokenKind::left_brace, ahead) && !parser.is(TokenKind::end_of_file, ahead) && !parser.is(TokenKind::right_brace, ahead) &&
+           !(ahead > 0 && parser.peek(ahead).starts_line))
+      ++ahead;
+    if (!parser.is(TokenKind::left_brace, ahead)) return false;
+    parser.at += ahead;
+  }
+  const bool opened = parser.expect(TokenKind::left_brace);
+  const bool follows = opened || (parser.is(TokenKind::identifier) && (begins_statement(parser.word()) || begins_item(parser.word())));
+  if (follows) parser.silent = false;
+  return follows;
+}
+
+void close_block(Parser& parser, Span open) {
+  if (parser.accept(TokenKind::right_brace)) return;
+  if (parser.silent) return;
+  if (parser.at == 0) return;
+  const Token& last = parser.tokens[parser.at - 1];
+  Diagnostic diagnostic(DiagnosticKind::BlockNotClosed, parser.span(last));
+  diagnostic.note(DiagnosticKind::BlockOpensHere, open).fix({parser.file, last.end, last.end}, "\n}");
+  parser.complain(std::move(diagnostic));
+  parser.silent = false;
+}
+
+}  // namespace rg::dsl

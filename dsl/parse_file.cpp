@@ -1,0 +1,381 @@
+// Files, declarations, graphs and the items in them.
+#include <cmath>
+
+#include "dsl/parser.h"
+#include "dsl/parser_state.h"
+
+namespace rg::dsl {
+namespace {
+
+using namespace ast;
+
+std::string_view take_path(Parser& parser, const char* what) {
+  if (!parser.is(TokenKind::string)) {
+    parser.expected(what);
+    return {};
+  }
+  std::string_view path = parser.word().substr(1);
+  if (!path.empty() && path.back() == '"') path.remove_suffix(1);
+  parser.take();
+  return path;
+}
+
+void parse_import(Parser& parser, File& file) {
+  parser.take();
+  const Span span = parser.here();
+  const std::string_view path = take_path(parser, "the path of a file");
+  if (!parser.silent) file.imports.push_back({path, span});
+}
+
+void parse_target(Parser& parser, File& file) {
+  Target target;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  target.api = parser.expect_one_of("`vulkan`", {"vulkan"});
+  if (!parser.silent) target.version = parse_expression(parser, "a version").real;
+  target.span = parser.since(begin);
+  if (!parser.silent) file.target = target;
+}
+
+Constant parse_constant(Parser& parser) {
+  Constant constant;
+  parser.take();
+  constant.name = parser.expect_name("the name of the constant");
+  parser.expect(TokenKind::equal);
+  if (!parser.silent) constant.value = parse_expression(parser, "a value");
+  return constant;
+}
+
+ExtentDeclaration parse_extent(Parser& parser) {
+  ExtentDeclaration extent;
+  parser.take();
+  extent.name = parser.expect_name("the name of the extent");
+  parser.expect(TokenKind::equal);
+  const uint32_t begin = parser.peek().begin;
+  if (!parser.silent && !parser.expect_one_of("`runtime`", {"runtime"}).empty()) extent.initial = parse_arguments(parser);
+  if (!parser.silent && parser.accept_word("max")) extent.maximum = parse_arguments(parser);
+  extent.span = parser.since(begin);
+  return extent;
+}
+
+InterfaceDeclaration parse_interface(Parser& parser) {
+  InterfaceDeclaration interface;
+  parser.take();
+  interface.name = parser.expect_name("the name of the interface");
+  parse_block(parser, Level::fields, [&] {
+    interface.members.push_back(parse_member(parser));
+    parser.accept(TokenKind::comma);
+  });
+  return interface;
+}
+
+SamplerDeclaration parse_sampler(Parser& parser) {
+  SamplerDeclaration sampler;
+  parser.take();
+  sampler.name = parser.expect_name("the name of the sampler");
+  sampler.settings =
+      parse_settings(parser, {{"filter", "", 1, 0}, {"mip", "", 1, 0}, {"address", "", 1, 0}, {"compare", "", 1, 0}, {"anisotropy", "", 0, 1}}, "a sampler");
+  return sampler;
+}
+
+StateDeclaration parse_state(Parser& parser) {
+  StateDeclaration state;
+  parser.take();
+  state.name = parser.expect_name("the name of the state");
+  state.settings = parse_settings(parser,
+                                  {{"cull", "", 1, 0},
+                                   {"front", "", 1, 0},
+                                   {"depth", "test", 1, 0},
+                                   {"depth", "write", 1, 0},
+                                   {"bias", "", 0, 2},
+                                   {"topology", "", 1, 0},
+                                   {"alpha_to_coverage", "", 0, 0}},
+                                  "a state");
+  return state;
+}
+
+FeatureDeclaration parse_feature(Parser& parser) {
+  FeatureDeclaration feature;
+  parser.take();
+  feature.name = parser.expect_name("the name of the feature");
+  parser.expect(TokenKind::colon);
+  if (parser.silent || parser.accept_word("bool")) return feature;
+  feature.is_bool = false;
+  const Span open = parser.here();
+  if (!parser.expect(TokenKind::left_brace)) return feature;
+  do {
+    feature.values.push_back(parser.expect_name("a value"));
+  } while (!parser.silent && parser.accept(TokenKind::comma));
+  if (!parser.silent) close_block(parser, open);
+  return feature;
+}
+
+ConditionDeclaration parse_condition(Parser& parser) {
+  parser.take();
+  return {parser.expect_name("the name of the condition")};
+}
+
+// The text between the braces is GLSL: only the braces count.
+EngineSetDeclaration parse_engine_set(Parser& parser) {
+  EngineSetDeclaration set;
+  parser.take();
+  set.name = parser.expect_name("the name of the set");
+  set.set_span = parser.here();
+  set.set = parser.is(TokenKind::integer) ? parse_expression(parser).integer : -1;
+  const Span open = parser.here();
+  if (!parser.expect(TokenKind::left_brace)) return set;
+  const uint32_t begin = open.end;
+  for (uint32_t depth = 0; !parser.done(); parser.take()) {
+    if (parser.is(TokenKind::left_brace)) ++depth;
+    if (parser.is(TokenKind::right_brace) && depth-- == 0) break;
+  }
+  set.glsl = parser.text.substr(begin, parser.peek().begin - begin);
+  close_block(parser, open);
+  return set;
+}
+
+Parameter parse_surface(Parser& parser) {
+  Parameter parameter;
+  parameter.kind = Parameter::Kind::surface;
+  parser.take();
+  parameter.name = parameter.surface.name = parser.expect_name("the name of the surface");
+  parser.expect(TokenKind::colon);
+  if (!parser.silent) parameter.surface = parse_image_type(parser, std::move(parameter.surface));
+  return parameter;
+}
+
+Parameter parse_parameter(Parser& parser) {
+  const uint32_t begin = parser.peek().begin;
+  const bool prefixed = parser.is(TokenKind::identifier, 1);
+  if (prefixed && parser.is_word("surface")) return parse_surface(parser);
+  Parameter parameter;
+  if (prefixed) parameter.writable = parser.accept_word("inout");
+  if (prefixed && parser.accept_word("params")) parameter.kind = Parameter::Kind::params;
+  else if (prefixed && parser.accept_word("image")) parameter.kind = Parameter::Kind::image;
+  else if (prefixed && parser.accept_word("buffer")) parameter.kind = Parameter::Kind::buffer;
+  else if (prefixed && parser.accept_word("const")) parameter.kind = Parameter::Kind::constant;
+  parameter.name = parser.expect_name("a parameter");
+  const bool typed = parameter.kind == Parameter::Kind::params || parameter.kind == Parameter::Kind::interface;
+  if (typed && parser.expect(TokenKind::colon)) parameter.type = parse_place(parser, "a type");
+  parameter.span = parser.since(begin);
+  return parameter;
+}
+
+void parse_parameters(Parser& parser, GraphDeclaration& graph) {
+  if (parser.silent || !parser.expect(TokenKind::left_paren)) return;
+  if (parser.accept(TokenKind::right_paren)) return;
+  do {
+    graph.parameters.push_back(parse_parameter(parser));
+  } while (!parser.silent && parser.accept(TokenKind::comma));
+  if (!parser.silent) parser.expect(TokenKind::right_paren);
+}
+
+For parse_for(Parser& parser) {
+  For loop;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  loop.variable = parser.expect_name("a loop variable");
+  parser.expect_one_of("`in`", {"in"});
+  if (!parser.silent) loop.first = parse_expression(parser, "the first value");
+  if (!parser.silent) parser.expect(TokenKind::dot_dot);
+  if (!parser.silent) loop.last = parse_expression(parser, "the end of the range");
+  loop.span = parser.since(begin);
+  parse_items(parser, loop.body);
+  return loop;
+}
+
+When parse_when(Parser& parser) {
+  When when;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  when.negated = parser.is(TokenKind::identifier, 1) && parser.accept_word("not");
+  when.feature = parser.expect_name("a feature");
+  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
+    when.negated ^= parser.is(TokenKind::not_equal);
+    parser.take();
+    when.value = parser.expect_name("a value of the feature");
+  }
+  when.span = parser.since(begin);
+  parse_items(parser, when.body);
+  if (parser.accept_word("else")) parse_items(parser, when.otherwise);
+  return when;
+}
+
+IfHost parse_if(Parser& parser) {
+  IfHost branch;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  parser.expect_one_of("`host`", {"host"});
+  if (!parser.silent) branch.condition = parser.expect_name("a condition");
+  branch.span = parser.since(begin);
+  parse_items(parser, branch.body);
+  return branch;
+}
+
+Use parse_use(Parser& parser) {
+  Use use;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  if (parser.is(TokenKind::equal, 1)) {
+    use.instance = parser.expect_name("a name");
+    parser.take();
+  }
+  Expr call = parse_place(parser, "a technique");
+  if (call.kind == ExprKind::call) {
+    use.technique = std::move(call.operands[0]);
+    use.arguments.assign(std::make_move_iterator(call.operands.begin() + 1), std::make_move_iterator(call.operands.end()));
+  } else if (!parser.silent) {
+    parser.expected("`(`");
+  }
+  use.span = parser.since(begin);
+  return use;
+}
+
+void parse_comparison(Parser& parser, Assertion& assertion) {
+  constexpr TokenKind kComparisons[] = {TokenKind::less_equal, TokenKind::less, TokenKind::equal_equal, TokenKind::greater, TokenKind::greater_equal};
+  for (const TokenKind kind : kComparisons) {
+    if (!parser.is(kind)) continue;
+    assertion.comparison = parser.take_name();
+    assertion.value = parse_expression(parser, "a number");
+    if (!parser.silent && parser.is(TokenKind::identifier) && !parser.peek().starts_line)
+      assertion.unit = parser.expect_one_of("`KiB`, `MiB`, `GiB` or `%`", {"KiB", "MiB", "GiB", "KB", "MB", "GB", "bytes"});
+    return;
+  }
+}
+
+Assertion parse_assertion(Parser& parser) {
+  Assertion assertion;
+  const uint32_t begin = parser.peek().begin;
+  assertion.is_error = parser.is_word("assert");
+  parser.take();
+  assertion.fact = parser.expect_name("a fact");
+  if (!parser.silent && parser.is(TokenKind::left_paren)) assertion.arguments = parse_arguments(parser);
+  if (!parser.silent) parse_comparison(parser, assertion);
+  assertion.span = parser.since(begin);
+  assertion.text = parser.text.substr(begin, assertion.span.end - begin);
+  return assertion;
+}
+
+// Statements after a `}` too many still belong to the pass before it.
+bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
+  if (items.empty() || !parser.is(TokenKind::identifier) || !begins_statement(parser.word())) return false;
+  auto* pass = std::get_if<PassDeclaration>(&items.back().node);
+  if (!pass) return false;
+  parser.complain({DiagnosticKind::StatementOutsidePass, parser.here(), {std::string(parser.word())}});
+  resynchronise(parser, Level::graph);
+  pass->has_error = true;
+  if (parser.is(TokenKind::right_brace)) parser.take();
+  return true;
+}
+
+void complain_about_item(Parser& parser) {
+  if (!parser.is(TokenKind::identifier)) return parser.expected("`image`, `buffer`, `pass` or another item of a graph");
+  Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
+  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"});
+  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  parser.complain(std::move(diagnostic));
+}
+
+void parse_item(Parser& parser, std::vector<Item>& items) {
+  const std::string_view word = parser.is(TokenKind::identifier) ? parser.word() : std::string_view();
+  if (word == "pass") items.push_back({parse_pass(parser)});
+  else if (word == "image" || word == "buffer") items.push_back({parse_resource(parser)});
+  else if (word == "for") items.push_back({parse_for(parser)});
+  else if (word == "when") items.push_back({parse_when(parser)});
+  else if (word == "if") items.push_back({parse_if(parser)});
+  else if (word == "use") items.push_back({parse_use(parser)});
+  else if (word == "assert" || word == "warn") items.push_back({parse_assertion(parser)});
+  else if (!rejoin_pass(parser, items)) complain_about_item(parser);
+}
+
+void parse_one_declaration(Parser& parser, File& file);
+
+// Items after a `}` too many still belong to the graph before it.
+bool rejoin_graph(Parser& parser, File& file) {
+  if (file.declarations.empty() || !parser.is(TokenKind::identifier) || !begins_item(parser.word())) return false;
+  auto* graph = std::get_if<GraphDeclaration>(&file.declarations.back());
+  if (!graph) return false;
+  parser.complain({DiagnosticKind::ItemOutsideGraph, parser.here(), {std::string(parser.word())}});
+  parser.silent = false;
+  graph->has_error = true;
+  while (!parser.done() && !parser.accept(TokenKind::right_brace) && !starts_outer(parser, Level::graph)) {
+    const size_t before = parser.at;
+    parse_item(parser, graph->body);
+    if (parser.silent) resynchronise(parser, Level::graph);
+    if (parser.at == before) parser.take();
+  }
+  return true;
+}
+
+void complain_about_declaration(Parser& parser) {
+  if (!parser.is(TokenKind::identifier)) return parser.expected("a declaration");
+  Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
+  const std::string guess = closest(
+      parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state", "feature", "condition", "set", "graph", "technique"});
+  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  parser.complain(std::move(diagnostic));
+}
+
+void parse_module(Parser& parser, File& file) {
+  if (!file.module.empty()) parser.complain({DiagnosticKind::RepeatedModule, parser.here(), {}});
+  parser.take();
+  const Name name = parser.expect_name("the name of the module");
+  if (file.module.empty()) file.module = name;
+}
+
+StructDeclaration parse_struct_declaration(Parser& parser) {
+  parser.take();
+  return parse_struct(parser);
+}
+
+void parse_one_declaration(Parser& parser, File& file) {
+  const std::string_view word = parser.is(TokenKind::identifier) ? parser.word() : std::string_view();
+  auto& out = file.declarations;
+  if (word == "module") parse_module(parser, file);
+  else if (word == "import") parse_import(parser, file);
+  else if (word == "target") parse_target(parser, file);
+  else if (word == "const") out.push_back(parse_constant(parser));
+  else if (word == "extent") out.push_back(parse_extent(parser));
+  else if (word == "struct") out.push_back(parse_struct_declaration(parser));
+  else if (word == "interface") out.push_back(parse_interface(parser));
+  else if (word == "sampler") out.push_back(parse_sampler(parser));
+  else if (word == "state") out.push_back(parse_state(parser));
+  else if (word == "feature") out.push_back(parse_feature(parser));
+  else if (word == "condition") out.push_back(parse_condition(parser));
+  else if (word == "set") out.push_back(parse_engine_set(parser));
+  else if (word == "graph" || word == "technique") out.push_back(parse_graph(parser, word == "technique"));
+  else if (!rejoin_graph(parser, file)) complain_about_declaration(parser);
+}
+
+}  // namespace
+
+void parse_items(Parser& parser, std::vector<Item>& items) {
+  parse_block(parser, Level::graph, [&] { parse_item(parser, items); });
+}
+
+GraphDeclaration parse_graph(Parser& parser, bool is_technique) {
+  GraphDeclaration graph;
+  graph.is_technique = is_technique;
+  parser.take();
+  graph.name = parser.expect_name(is_technique ? "the name of the technique" : "the name of the graph");
+  parse_parameters(parser, graph);
+  graph.has_error = parser.silent;
+  parse_items(parser, graph.body);
+  return graph;
+}
+
+File parse(FileId file_id, std::string_view text, const Tokens& tokens, Diagnostics& diagnostics) {
+  Parser parser{file_id, text, tokens, diagnostics};
+  File file;
+  file.file = file_id;
+  while (!parser.done()) {
+    const size_t before = parser.at;
+    parse_one_declaration(parser, file);
+    if (parser.silent) resynchronise(parser, Level::file);
+    if (parser.at == before) parser.take();
+  }
+  file.has_error = parser.any_error;
+  return file;
+}
+
+}  // namespace rg::dsl
