@@ -4,6 +4,7 @@
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "compiler/commands/plan_json.h"
 #include "compiler/commands/plan_text.h"
 #include "dsl/lexer.h"
 
@@ -88,6 +89,14 @@ int emit_files(const compiler::CompileResult& result, bool shaders) {
   return exit_done;
 }
 
+int emit_json(const compiler::CompileResult& result) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  for (const compiler::CompiledGraph& graph : result.graphs)
+    for (const compiler::FramePlan& plan : graph.plans) all.push_back(plan_json(plan.plan));
+  print(all.dump(2) + "\n");
+  return exit_done;
+}
+
 struct StageRow {
   const char* name;
   compiler::Until until;
@@ -102,6 +111,7 @@ constexpr StageRow kStages[] = {
     {"lifetimes", Until::plans, [](const compiler::CompileResult& result) { return emit_plans(result, lifetimes_text); }},
     {"memory", Until::plans, [](const compiler::CompileResult& result) { return emit_plans(result, memory_text); }},
     {"barriers", Until::plans, [](const compiler::CompileResult& result) { return emit_plans(result, barriers_text); }},
+    {"plan", Until::plans, emit_json},
     {"cpp", Until::files, [](const compiler::CompileResult& result) { return emit_files(result, false); }},
     {"spirv", Until::files, [](const compiler::CompileResult& result) { return emit_files(result, true); }},
 };
