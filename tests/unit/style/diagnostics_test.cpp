@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cstdlib>
 #include <set>
 
 #include "tests/unit/style/tree.h"
@@ -73,6 +74,29 @@ TEST(Diagnostics, EveryCodeIsShownByATest) {
   for (const Row& row : rows())
     EXPECT_TRUE(all.find(row.code) != std::string::npos || all.find("DiagnosticKind::" + row.name) != std::string::npos)
         << row.code << " " << row.name << " appears in no test";
+}
+
+std::string page() {
+  std::string text =
+      "# Diagnostics\n\nEvery code, with its message; `{0}`, `{1}` stand for what was found. Codes are stable and never reused. `rgc explain CODE` prints one.\n"
+      "Tests under `tests/` show each with an input that causes it.\n\n"
+      "RG00 files and imports, RG01 text, RG02 names and types, RG03 meaning of passes and accesses, RG04 shaders, RG05 judged facts, RG06 the command line\n"
+      "and the world.\n\n| code | severity | name | message |\n|---|---|---|---|\n";
+  std::vector<Row> all = rows();
+  std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.code < b.code; });
+  for (const Row& row : all) {
+    std::string message;
+    for (const char c : row.message) message += c == '|' ? std::string("\\|") : std::string(1, c);
+    text += "| " + row.code + " | " + row.severity + " | " + row.name + " | " + message + " |\n";
+  }
+  return text;
+}
+
+// ./x update writes the page anew.
+TEST(Diagnostics, ThePageListsEveryCode) {
+  const std::filesystem::path path = std::filesystem::path(RGC_SOURCE_DIR) / "docs/diagnostics.md";
+  if (std::getenv("RGC_UPDATE")) std::ofstream(path) << page();
+  EXPECT_EQ(read(path), page()) << "rewrite it with ./x update";
 }
 
 }  // namespace
