@@ -1,0 +1,160 @@
+#include "examples/demo/app.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "examples/demo/gltf.h"
+#include "examples/demo/options.h"
+#include "examples/demo/plaza.h"
+#include "examples/demo/png.h"
+#include "examples/demo/renderer.h"
+#include "examples/demo/report.h"
+
+namespace rg::demo {
+namespace {
+
+int complain(const std::string& message) {
+  std::fprintf(stderr, "error: %s\n", message.c_str());
+  return 1;
+}
+
+int print_devices() {
+  const std::vector<DeviceDescription> devices = list_devices();
+  if (devices.empty()) return complain("no Vulkan device was found; install a driver, for example mesa-vulkan-drivers");
+  for (size_t i = 0; i < devices.size(); ++i)
+    std::printf("%zu  %s%s%s\n", i, devices[i].name.c_str(), devices[i].usable ? "" : "  not usable: ", devices[i].reason.c_str());
+  return 0;
+}
+
+Result<Scene> load_scene(const DemoOptions& options) { return options.scene.empty() ? Result<Scene>(make_plaza()) : load_gltf(options.scene); }
+
+Status prepare_folder(const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) return Error{ErrorCode::io, "`" + folder + "` cannot be created: " + failure.message() + "; choose another folder with --out"};
+  return Done{};
+}
+
+// One picture: a camera and what to show of it.
+struct Shot { const NamedCamera* camera = nullptr; uint32_t view = 0; };
+
+Result<std::vector<Shot>> choose_shots(const Scene& scene, const DemoOptions& options) {
+  std::vector<const NamedCamera*> cameras;
+  std::string names;
+  for (const NamedCamera& camera : scene.cameras) {
+    if (options.camera.empty() || camera.name == options.camera) cameras.push_back(&camera);
+    names += (names.empty() ? "`" : ", `") + camera.name + "`";
+  }
+  if (cameras.empty()) return Error{ErrorCode::invalid_argument, "there is no camera `" + options.camera + "`; the scene has " + names};
+  std::vector<Shot> shots;
+  if (!options.views.empty()) {
+    for (const std::string& view : options.views) shots.push_back({cameras.front(), static_cast<uint32_t>(find_view(view))});
+    return shots;
+  }
+  for (const NamedCamera* camera : cameras) shots.push_back({camera, frame::DEBUG_FINAL});
+  for (uint32_t view = 1; view < static_cast<uint32_t>(frame::DEBUG_COUNT); ++view) shots.push_back({cameras.front(), view});
+  return shots;
+}
+
+std::string file_name(const Scene& scene, const Shot& shot) {
+  return scene.name + "_" + shot.camera->name + (shot.view == frame::DEBUG_FINAL ? "" : "_" + std::string(view_names()[shot.view])) + ".png";
+}
+
+FrameSettings settings_for(const DemoOptions& options, const Shot& shot, uint32_t number) {
+  FrameSettings settings;
+  settings.width = options.width;
+  settings.height = options.height;
+  settings.number = number;
+  settings.debug_view = shot.view;
+  return settings;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+
+// Renders until history and exposure have settled, then writes. A debug view needs one frame only.
+Status take(Renderer& renderer, const Scene& scene, const DemoOptions& options, const Shot& shot) {
+  const uint32_t frames = shot.view == frame::DEBUG_FINAL ? options.frames : 1;
+  for (uint32_t number = 0; number < frames; ++number) {
+    const FrameData data = make_frame(scene, *shot.camera, settings_for(options, shot, number));
+    if (Status drawn = renderer.render(data); !drawn) return drawn;
+  }
+  const auto picture = renderer.picture();
+  if (!picture) return picture.error();
+  const std::filesystem::path path = std::filesystem::path(options.out) / file_name(scene, shot);
+  if (Status written = write_png(path, *picture); !written) return written;
+  std::printf("wrote %s\n", path.c_str());
+  return Done{};
+}
+
+// A second instance that submits pass by pass; the first frame compiles, the second is measured.
+Status measure_passes(Device& device, const Scene& scene, const DemoOptions& options, const Shot& shot, Measurements& out) {
+  auto renderer = Renderer::create(device, scene, {.width = options.width, .height = options.height, .submit_per_pass = true});
+  if (!renderer) return renderer.error();
+  for (uint32_t number = 0; number < 2; ++number)
+    if (Status drawn = renderer->render(make_frame(scene, *shot.camera, settings_for(options, shot, number))); !drawn) return drawn;
+  if (Status idle = renderer->graph().instance().wait_idle(); !idle) return idle;
+  for (const PassTime& time : renderer->graph().instance().pass_times()) out.passes.push_back({std::string(time.pass), time.ms});
+  return Done{};
+}
+
+Status measure_frame(Renderer& renderer, const Scene& scene, const DemoOptions& options, const Shot& shot, Measurements& out) {
+  const FrameData data = make_frame(scene, *shot.camera, settings_for(options, shot, options.frames));
+  const auto start = std::chrono::steady_clock::now();
+  if (Status drawn = renderer.render(data); !drawn) return drawn;
+  if (Status idle = renderer.graph().instance().wait_idle(); !idle) return idle;
+  out.frame_ms = seconds_since(start) * 1000;
+  out.memory = renderer.graph().instance().memory();
+  out.lights = data.view.light_count;
+  const auto counts = renderer.graph().cull_counts();
+  if (!counts) return counts.error();
+  out.visible = (*counts)[frame::COUNT_VISIBLE];
+  out.outside = (*counts)[frame::COUNT_OUTSIDE];
+  out.in_sun = (*counts)[frame::COUNT_SUN];
+  out.triangles = (*counts)[frame::COUNT_TRIANGLES];
+  return Done{};
+}
+
+Status render_all(Device& device, const Scene& scene, const DemoOptions& options) {
+  const auto shots = choose_shots(scene, options);
+  if (!shots) return shots.error();
+  auto renderer = Renderer::create(device, scene, {.width = options.width, .height = options.height});
+  if (!renderer) return renderer.error();
+  for (const Shot& shot : *shots)
+    if (Status taken = take(*renderer, scene, options, shot); !taken) return taken;
+  Measurements measured;
+  if (Status done = measure_frame(*renderer, scene, options, shots->front(), measured); !done) return done;
+  if (Status done = measure_passes(device, scene, options, shots->front(), measured); !done) return done;
+  std::fputs(format_report(frame::plan(), measured, std::string(device.name())).c_str(), stdout);
+  return Done{};
+}
+
+DeviceOptions device_options(const DemoOptions& options) {
+  DeviceOptions device;
+  device.device = options.device;
+  device.validate = options.validate;
+  device.on_message = [](bool is_error, std::string_view message) {
+    std::fprintf(stderr, "%s: %.*s\n", is_error ? "validation error" : "validation", static_cast<int>(message.size()), message.data());
+  };
+  return device;
+}
+
+}  // namespace
+
+int run_demo(int argc, char** argv) {
+  int exit_code = 0;
+  const auto options = parse_options(argc, argv, exit_code);
+  if (!options) return exit_code;
+  if (options->list_devices) return print_devices();
+  auto scene = load_scene(*options);
+  if (!scene) return complain(scene.error().message);
+  if (Status ready = prepare_folder(options->out); !ready) return complain(ready.error().message);
+  auto device = Device::create(device_options(*options));
+  if (!device) return complain(device.error().message);
+  if (Status done = render_all(*device, *scene, *options); !done) return complain(done.error().message);
+  if (options->validate) std::printf("validation: %llu messages\n", static_cast<unsigned long long>(device->validation_messages()));
+  return device->validation_messages() > 0 ? 1 : 0;
+}
+
+}  // namespace rg::demo

@@ -1,0 +1,46 @@
+// What one frame of a scene hands to the graph: a function of scene, camera and frame number. No Vulkan in here.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "examples/demo/camera.h"
+#include "examples/demo/scene.h"
+#include "frame.h"
+
+namespace rg::demo {
+
+struct FrameSettings {
+  uint32_t width = 640, height = 360;
+  uint32_t number = 0;  // of the frame
+  uint32_t debug_view = frame::DEBUG_FINAL;
+  uint32_t light_path = frame::LIGHT_PATH_RECORDS;
+  bool jitter = true;   // moves the camera within the pixel
+  bool noise = true;    // other variations of each frame
+  bool animate = true;  // else the scene stands still at time 0
+};
+
+struct PropPlacement {
+  uint32_t mesh = 0;  // of Scene::prop_meshes
+  frame::PropDraw draw;
+};
+struct FrameData {
+  frame::View view;
+  std::vector<frame::Light> lights;        // sorted by nearest
+  std::vector<frame::Instance> instances;  // in the scene's order
+  std::vector<PropPlacement> props;
+  std::vector<uint32_t> glass;             // instances, farthest first
+  frame::HologramDraw hologram;
+};
+
+FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameSettings& settings);
+std::vector<frame::Material> make_materials(const Scene& scene);
+
+// Metres that the z-bins cover; what lies farther falls into the last one.
+constexpr float kZbinRange = 96;
+
+// Index of a debug view by its name, "final" or "lights"; -1 if there is none. Names are in the order of the DEBUG_ constants.
+int find_view(std::string_view name);
+std::vector<std::string_view> view_names();
+
+}  // namespace rg::demo

@@ -1,0 +1,33 @@
+#include "examples/demo/options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "examples/demo/frame_data.h"
+
+namespace rg::demo {
+
+std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) {
+  DemoOptions options;
+  CLI::App app{"Renders a scene through the generated frame and writes pictures."};
+  std::vector<std::string> views;
+  for (const std::string_view name : view_names()) views.emplace_back(name);
+  app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 3840))->capture_default_str();
+  app.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 2160))->capture_default_str();
+  app.add_option("--frames", options.frames, "frames to render before a picture is taken")->check(CLI::Range(1, 100000))->capture_default_str();
+  app.add_option("--scene", options.scene, "a .gltf or .glb file instead of the plaza");
+  app.add_option("--camera", options.camera, "one of the scene's cameras by name");
+  app.add_option("--view", options.views, "what to show, may be repeated; all if left out")->check(CLI::IsMember(views));
+  app.add_option("--device", options.device, "number from --list-devices; -1 takes the best")->capture_default_str();
+  app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
+  app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
+  app.add_flag("--list-devices", options.list_devices, "print the Vulkan devices and end");
+  try {
+    app.parse(argc, argv);
+    return options;
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? 0 : 2;
+    return std::nullopt;
+  }
+}
+
+}  // namespace rg::demo

@@ -1,0 +1,24 @@
+// What the command line of the demo says.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rg::demo {
+
+struct DemoOptions {
+  uint32_t width = 640, height = 360;
+  uint32_t frames = 6;
+  std::string scene;   // a glTF file; empty: the plaza
+  std::string camera;  // empty: the scene's first
+  std::vector<std::string> views;  // what to show; empty: the final picture of every camera and all debug views of the first
+  std::string out = "out";
+  int device = -1;
+  bool validate = false, list_devices = false;
+};
+
+// Nothing where the program should end at once, with `exit_code` set; messages have been printed.
+std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code);
+
+}  // namespace rg::demo
