@@ -78,7 +78,10 @@ std::vector<std::vector<Region>> all_regions(const dsl::Program& program, const 
   for (const ImageBarrier& barrier : plan.image_barriers) image(barrier.image, barrier.range);
   for (const Attachment& attachment : plan.attachments) image(attachment.ref, attachment.range);
   for (const auto& boundaries : {plan.entry, plan.exit})
-    for (const Boundary& boundary : boundaries) image(boundary.ref, boundary.range);
+    for (const Boundary& boundary : boundaries) {
+      const uint32_t resource = program_resource[boundary.ref.resource];
+      regions[resource].push_back(region_of(plan, cells, cells.resources[resource], boundary));
+    }
   for (const Access& access : plan.accesses) image(access.ref, access.range);
   for (const BufferBarrier& barrier : plan.buffer_barriers) {
     const uint32_t resource = program_resource[barrier.buffer.resource];
@@ -136,6 +139,10 @@ Region region_of(const Plan& plan, const Cells& cells, const ResourceCells& reso
   return by_aspect(1, begin, std::min(end, resource.whole.x1), 0, 1);
 }
 
+Region region_of(const Plan& plan, const Cells& cells, const ResourceCells& resource, const Boundary& boundary) {
+  return resource.image ? region_of(resource, boundary.range) : region_of(plan, cells, resource, boundary.bytes);
+}
+
 Pieces pieces_in(const ResourceCells& resource, const Region& region) {
   Pieces result;
   for (uint32_t i = 0; i < resource.pieces.size(); ++i) {
@@ -156,7 +163,10 @@ Cells make_cells(const dsl::Program& program, const dsl::Graph& graph, const Pla
   Cells cells;
   cells.extents = options.extents.empty() ? dsl::initial_extents(program) : options.extents;
   cells.resources.resize(graph.resources.size());
-  for (uint32_t i = 0; i < cells.resources.size(); ++i) cells.resources[i].whole = whole_of(program, graph.resources.rows[i], cells.extents);
+  for (uint32_t i = 0; i < cells.resources.size(); ++i) {
+    cells.resources[i].whole = whole_of(program, graph.resources.rows[i], cells.extents);
+    cells.resources[i].image = graph.resources.rows[i].kind == dsl::ResourceKind::image;
+  }
   for (Index i = 0; i < program_resource.size(); ++i) {
     cells.resources[program_resource[i]].exists = true;
     cells.resources[program_resource[i]].plan_resource = i;

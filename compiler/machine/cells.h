@@ -21,6 +21,7 @@ using Region = std::vector<Piece>;  // one for each aspect; empty where the rang
 using Pieces = std::vector<uint32_t>;
 
 struct ResourceCells {
+  bool image = false;
   bool exists = false;        // has a plan resource
   uint32_t plan_resource = kNone;
   Piece whole;                // aspect holds all bits
@@ -44,6 +45,7 @@ Cells make_cells(const dsl::Program& program, const dsl::Graph& graph, const Pla
 Region region_of(const dsl::Program& program, const dsl::Graph& graph, const Cells& cells, const dsl::Access& access);
 Region region_of(const ResourceCells& resource, const Range& range);
 Region region_of(const Plan& plan, const Cells& cells, const ResourceCells& resource, const Bytes& bytes);
+Region region_of(const Plan& plan, const Cells& cells, const ResourceCells& resource, const Boundary& boundary);
 
 // Pieces inside the region, ascending.
 Pieces pieces_in(const ResourceCells& resource, const Region& region);

@@ -54,7 +54,7 @@ struct Run {
       const dsl::Lifetime lifetime = subject.graph.resources.rows[resource].lifetime;
       if (lifetime != dsl::Lifetime::history && lifetime != dsl::Lifetime::persistent) continue;
       const ResourceCells& cells = subject.cells.resources[resource];
-      const Pieces pieces = pieces_in(cells, region_of(cells, boundary.range));
+      const Pieces pieces = pieces_in(cells, region_of(subject.plan, subject.cells, cells, boundary));
       if (std::find(pieces.begin(), pieces.end(), piece) != pieces.end()) return true;
     }
     return false;
