@@ -36,6 +36,8 @@ struct Device::State {
   bool validating = false;
   bool classic_render_passes = false;  // the validation layer is blind to attachments of dynamic rendering
   bool load_op_none = false;
+  bool sampler_anisotropy = false;
+  bool multi_draw_indirect = false;
   uint32_t timestamp_bits = 0;
   std::function<void(bool is_error, std::string_view message)> on_message;
   std::atomic<uint64_t> messages = 0;

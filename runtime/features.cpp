@@ -41,7 +41,6 @@ constexpr Feature<VkPhysicalDeviceVulkan11Features> kV11[] = {
 constexpr Feature<VkPhysicalDeviceVulkan12Features> kV12[] = {
     RG_FEATURE(VkPhysicalDeviceVulkan12Features, timelineSemaphore, true),
     RG_FEATURE(VkPhysicalDeviceVulkan12Features, separateDepthStencilLayouts, true),
-    RG_FEATURE(VkPhysicalDeviceVulkan12Features, imagelessFramebuffer, true),
     RG_FEATURE(VkPhysicalDeviceVulkan12Features, scalarBlockLayout, false),
     RG_FEATURE(VkPhysicalDeviceVulkan12Features, uniformBufferStandardLayout, false),
     RG_FEATURE(VkPhysicalDeviceVulkan12Features, drawIndirectCount, false),

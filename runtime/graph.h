@@ -103,8 +103,9 @@ class GraphInstance {
   Result<Dump> take_dump();
   uint64_t frame() const;  // frames executed
 
+  struct State;  // graph_state.h, for the runtime's own files
+
  private:
-  struct State;
   explicit GraphInstance(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

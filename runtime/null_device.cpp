@@ -135,6 +135,7 @@ struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, 
 #undef RG_TAG
 
 constexpr VkDeviceSize kImageAlignment = 65536, kBufferAlignment = 256;
+constexpr uint32_t kImageSide = 16384;
 
 uint64_t image_bytes(const VkImageCreateInfo& info) {
   const FormatInfo format = format_info(info.format);
@@ -243,6 +244,13 @@ VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool, uint32_t first, 
 
 void VKAPI_CALL format_properties(VkPhysicalDevice, VkFormat, VkFormatProperties* out) { *out = {~0u, ~0u, ~0u}; }
 
+VkResult VKAPI_CALL image_format_properties(VkPhysicalDevice physical, VkFormat, VkImageType, VkImageTiling, VkImageUsageFlags, VkImageCreateFlags,
+                                            VkImageFormatProperties* out) {
+  NullDevice& null = *reinterpret_cast<NullDevice*>(physical);
+  *out = {{kImageSide, kImageSide, kImageSide}, 15, 2048, VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT, 1ull << 36};
+  return null.fails() ? null.options.failure : VK_SUCCESS;
+}
+
 void fill_functions(DeviceFunctions& vk) {
 #define RG_DEVICE(name) vk.name = Null<Tag##name, PFN_vk##name>::call;
 #define RG_DEVICE_OPTIONAL RG_DEVICE
@@ -261,12 +269,17 @@ void fill_functions(DeviceFunctions& vk) {
   vk.UpdateDescriptorSets = update_sets;
   vk.GetQueryPoolResults = query_results;
   vk.GetPhysicalDeviceFormatProperties = format_properties;
+  vk.GetPhysicalDeviceImageFormatProperties = image_format_properties;
 }
 
 void fill_description(Device::State& state) {
   state.name = "null";
   state.timestamp_bits = 64;
+  state.sampler_anisotropy = state.multi_draw_indirect = true;
   state.limits.timestampPeriod = 1;
+  state.limits.maxImageDimension1D = state.limits.maxImageDimension2D = state.limits.maxImageDimension3D = kImageSide;
+  state.limits.maxImageDimensionCube = kImageSide;
+  state.limits.maxImageArrayLayers = 2048;
   state.limits.minUniformBufferOffsetAlignment = 256;
   state.limits.minStorageBufferOffsetAlignment = 256;
   state.limits.nonCoherentAtomSize = 64;

@@ -209,6 +209,8 @@ Status create_device(Device::State& state, const DeviceOptions& options) {
   FeatureChain available, wanted;
   state.vk.GetPhysicalDeviceFeatures2(state.physical, &available.core);
   enable_available(wanted, available);
+  state.sampler_anisotropy = wanted.core.features.samplerAnisotropy == VK_TRUE;
+  state.multi_draw_indirect = wanted.core.features.multiDrawIndirect == VK_TRUE;
   std::vector<const char*> extensions = options.device_extensions;
   for (const char* extension : extensions)
     if (!has_device_extension(state.vk, state.physical, extension))

@@ -1,0 +1,168 @@
+#include "runtime/barriers.h"
+
+#include <numeric>
+
+#include "runtime/resolve.h"
+
+namespace rg {
+
+namespace {
+
+VkMemoryBarrier2 translate(const MemoryBarrier& in) {
+  return {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, in.src_stages, in.src_accesses, in.dst_stages, in.dst_accesses};
+}
+
+VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkImageSubresourceRange& range) {
+  VkImageMemoryBarrier2 out{};
+  out.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  out.srcStageMask = in.src_stages;
+  out.srcAccessMask = in.src_accesses;
+  out.dstStageMask = in.dst_stages;
+  out.dstAccessMask = in.dst_accesses;
+  out.oldLayout = static_cast<VkImageLayout>(in.old_layout);
+  out.newLayout = static_cast<VkImageLayout>(in.new_layout);
+  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  out.image = image;
+  out.subresourceRange = range;
+  return out;
+}
+
+VkBufferMemoryBarrier2 translate(const BufferBarrier& in, const BufferSpan& span) {
+  VkBufferMemoryBarrier2 out{};
+  out.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+  out.srcStageMask = in.src_stages;
+  out.srcAccessMask = in.src_accesses;
+  out.dstStageMask = in.dst_stages;
+  out.dstAccessMask = in.dst_accesses;
+  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  out.buffer = span.buffer;
+  out.offset = span.offset;
+  out.size = span.size;
+  return out;
+}
+
+bool imported(const Sized& sized, Index resource) { return sized.resources[resource].count == 0; }
+
+uint32_t group_period(const Context& context, const Sized& sized, const BarrierGroup& group) {
+  uint32_t period = 1;
+  for (const ImageBarrier& barrier : context.plan.image_barriers.subspan(group.first_image, group.image_count))
+    period = std::lcm(period, copies_of(sized, barrier.image.resource));
+  for (const BufferBarrier& barrier : context.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count))
+    period = std::lcm(period, copies_of(sized, barrier.buffer.resource));
+  return period;
+}
+
+// What the placement adds to the plan's barriers; see alias.h.
+struct Patches {
+  struct Scope { Stages stages = 0; Accesses accesses = 0; };
+  std::vector<Scope> images;                 // by Plan::image_barriers
+  std::vector<const MemoryBarrier*> groups;  // by Plan::groups; null: nothing
+};
+
+Patches make_patches(const Plan& plan, const alias::HandOffs& hand_offs) {
+  Patches patches{std::vector<Patches::Scope>(plan.image_barriers.size()), std::vector<const MemoryBarrier*>(plan.groups.size())};
+  for (const alias::GroupPatch& patch : hand_offs.groups) patches.groups[patch.group] = &patch.memory;
+  for (const alias::ImagePatch& patch : hand_offs.images)
+    for (Index i = patch.first; i < patch.first + patch.count; ++i) patches.images[i].stages |= patch.src_stages, patches.images[i].accesses |= patch.src_accesses;
+  return patches;
+}
+
+// Barriers on mips that do not exist at these extents vanish.
+void add_images(const Context& context, const Sized& sized, const BarrierGroup& group, const Patches& patches, uint32_t phase, GroupTable& table) {
+  for (Index i = group.first_image; i < group.first_image + group.image_count; ++i) {
+    const ImageBarrier& barrier = context.plan.image_barriers[i];
+    const VkImageSubresourceRange range = image_range(context, sized, barrier.image.resource, barrier.range);
+    if (range.levelCount == 0) continue;
+    const VkImage image = imported(sized, barrier.image.resource) ? VkImage(VK_NULL_HANDLE) : image_at(sized, {}, context.plan, barrier.image, phase);
+    VkImageMemoryBarrier2& out = table.images.emplace_back(translate(barrier, image, range));
+    out.srcStageMask |= patches.images[i].stages;
+    out.srcAccessMask |= patches.images[i].accesses;
+  }
+}
+
+void add_buffers(const Context& context, const Sized& sized, const BarrierGroup& group, uint32_t phase, GroupTable& table) {
+  for (const BufferBarrier& barrier : context.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
+    const ByteRange bytes = byte_range(context, sized, barrier.bytes);
+    if (bytes.size == 0) continue;
+    const bool from_engine = imported(sized, barrier.buffer.resource);
+    table.buffers.push_back(translate(barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
+  }
+}
+
+// Same walk as add_images and add_buffers: finds the barriers whose handles come with the frame.
+void list_imports(const Context& context, Sized& sized, const BarrierGroup& group, GroupTable& table) {
+  for (uint32_t phase = 0; phase < table.period; ++phase) {
+    size_t image = table.images.size() / table.period * phase, buffer = table.buffers.size() / table.period * phase;
+    for (const ImageBarrier& barrier : context.plan.image_barriers.subspan(group.first_image, group.image_count)) {
+      if (image_range(context, sized, barrier.image.resource, barrier.range).levelCount == 0) continue;
+      if (imported(sized, barrier.image.resource))
+        sized.imported_images.push_back({context.plan.resources[barrier.image.resource].import_slot, &table.images[image]});
+      ++image;
+    }
+    for (const BufferBarrier& barrier : context.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
+      const ByteRange bytes = byte_range(context, sized, barrier.bytes);
+      if (bytes.size == 0) continue;
+      if (imported(sized, barrier.buffer.resource)) sized.imported_buffers.push_back({barrier.buffer, &table.buffers[buffer], bytes});
+      ++buffer;
+    }
+  }
+}
+
+void fill_infos(GroupTable& table) {
+  const size_t images = table.images.size() / table.period, buffers = table.buffers.size() / table.period;
+  for (uint32_t phase = 0; phase < table.period; ++phase) {
+    VkDependencyInfo& info = table.infos.emplace_back();
+    info = {};
+    info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    info.memoryBarrierCount = static_cast<uint32_t>(table.memory.size());
+    info.pMemoryBarriers = table.memory.data();
+    info.bufferMemoryBarrierCount = static_cast<uint32_t>(buffers);
+    info.pBufferMemoryBarriers = table.buffers.data() + buffers * phase;
+    info.imageMemoryBarrierCount = static_cast<uint32_t>(images);
+    info.pImageMemoryBarriers = table.images.data() + images * phase;
+  }
+}
+
+void add_memory(const Context& context, const BarrierGroup& group, const MemoryBarrier* hand_off, GroupTable& table) {
+  for (const MemoryBarrier& barrier : context.plan.memory_barriers.subspan(group.first_memory, group.memory_count))
+    if (barrier.src_stages != 0 || barrier.src_accesses != 0) table.memory.push_back(translate(barrier));
+  if (hand_off != nullptr) table.memory.push_back(translate(*hand_off));
+}
+
+}  // namespace
+
+void create_barriers(const Context& context, Sized& sized) {
+  alias::HandOffs hand_offs;
+  alias::find_hand_offs(context.plan, sized.placed, hand_offs);
+  const Patches patches = make_patches(context.plan, hand_offs);
+  sized.groups.resize(context.plan.groups.size());
+  for (size_t g = 0; g < sized.groups.size(); ++g) {
+    const BarrierGroup& group = context.plan.groups[g];
+    GroupTable& table = sized.groups[g];
+    table.period = group_period(context, sized, group);
+    add_memory(context, group, patches.groups[g], table);
+    for (uint32_t phase = 0; phase < table.period; ++phase) add_images(context, sized, group, patches, phase, table), add_buffers(context, sized, group, phase, table);
+    list_imports(context, sized, group, table);
+    fill_infos(table);
+  }
+  if (context.poison) add_poison(context, sized);
+}
+
+void update_imported_barriers(const Context& context, Sized& sized, const std::vector<Import>& imports) {
+  for (const ImportedImageBarrier& imported : sized.imported_images) imported.barrier->image = imports[imported.slot].image.image;
+  for (const ImportedBufferBarrier& imported : sized.imported_buffers) {
+    const BufferSpan span = buffer_at(sized, imports, context.plan, imported.ref, imported.bytes, 0);
+    imported.barrier->buffer = span.buffer;
+    imported.barrier->offset = span.offset;
+    imported.barrier->size = span.size;
+  }
+}
+
+void record_group(const Context& context, const Sized& sized, Index group, VkCommandBuffer commands, uint64_t frame) {
+  const GroupTable& table = sized.groups[group];
+  if (table.poison != kNone) record_poison(context, sized, sized.poisons[table.poison], commands);
+  const VkDependencyInfo& info = table.infos[frame % table.period];
+  if (info.memoryBarrierCount + info.bufferMemoryBarrierCount + info.imageMemoryBarrierCount != 0) context.vk().CmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace rg

@@ -1,0 +1,130 @@
+#include "runtime/graph.h"
+
+#include <algorithm>
+
+#include "runtime/barriers.h"
+#include "runtime/descriptors.h"
+#include "runtime/errors.h"
+#include "runtime/executor.h"
+#include "runtime/pass_tables.h"
+#include "runtime/pipelines.h"
+#include "runtime/plan_check.h"
+#include "runtime/resources.h"
+#include "runtime/samplers.h"
+
+namespace rg {
+
+GraphInstance::GraphInstance(std::unique_ptr<State> state) : state_(std::move(state)) {}
+GraphInstance::GraphInstance(GraphInstance&&) noexcept = default;
+GraphInstance& GraphInstance::operator=(GraphInstance&&) noexcept = default;
+GraphInstance::~GraphInstance() = default;
+
+GraphInstance::State::~State() {
+  if (timeline) static_cast<void>(wait_for(*this, submitted));  // a lost device has nothing in flight either
+}
+
+namespace {
+
+Status check_options(const Plan& plan, const GraphOptions& options) {
+  if (options.frames_in_flight < 1 || options.frames_in_flight > 4)
+    return Error{ErrorCode::invalid_argument, "frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 to 4"};
+  if (options.engine_set_layouts.size() < plan.engine_sets.size())
+    return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "` uses " + std::to_string(plan.engine_sets.size()) + " engine sets; layouts given: " +
+                                                  std::to_string(options.engine_set_layouts.size())};
+  return Done{};
+}
+
+Context make_context(Device& device, const Plan& plan, const GraphOptions& options) {
+  Context context{device.state(), plan, options.frames_in_flight, options.aliasing, options.poison, options.debug_readback, options.submit_per_pass, {}};
+  context.engine_set_layouts.assign(options.engine_set_layouts.begin(), options.engine_set_layouts.end());
+  return context;
+}
+
+std::vector<int64_t> initial_extents(const Plan& plan) {
+  std::vector<int64_t> values;
+  for (const Extent& extent : plan.extents) values.insert(values.end(), std::begin(extent.initial), std::end(extent.initial));
+  return values;
+}
+
+Status check_extents(const Plan& plan, std::span<const int64_t> values) {
+  if (values.size() != plan.extents.size() * 3)
+    return Error{ErrorCode::invalid_argument, "extents: " + std::to_string(values.size()) + " values instead of " + std::to_string(plan.extents.size() * 3)};
+  for (size_t i = 0; i < values.size(); ++i) {
+    const Extent& extent = plan.extents[i / 3];
+    if (i % 3 >= extent.axes) continue;
+    if (values[i] < 1 || values[i] > extent.maximum[i % 3])
+      return Error{ErrorCode::invalid_argument, "extent `" + std::string(extent.name) + "`: " + std::to_string(values[i]) + " is not in 1 to " +
+                                                    std::to_string(extent.maximum[i % 3])};
+  }
+  return Done{};
+}
+
+// Everything that depends on extents, or an error and nothing.
+Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Objects& objects, std::span<const int64_t> extents) {
+  auto sized = std::make_unique<Sized>();
+  sized->extents.assign(extents.begin(), extents.end());
+  RG_TRY(size_resources(context, *sized));
+  RG_TRY(create_resources(context, *sized));
+  RG_TRY(create_pass_tables(context, objects, *sized));
+  RG_TRY(create_ring(context, *sized));
+  RG_TRY(create_sets(context, objects, *sized));
+  // Beyond this point offsets are fixed: hand-offs of shared memory follow from them.
+  create_barriers(context, *sized);
+  return sized;
+}
+
+void count_slots(GraphInstance::State& state) {
+  const Plan& plan = state.context.plan;
+  uint32_t imports = 0;
+  for (const Resource& resource : plan.resources)
+    if (resource.lifetime == Lifetime::imported) imports = std::max(imports, resource.import_slot + 1);
+  state.imports.resize(imports);
+  for (const Pass& pass : plan.passes)
+    if (pass.work.kind == WorkKind::host) state.host_slots = std::max(state.host_slots, pass.host_slot + 1);
+  for (const Transfer& transfer : plan.transfers)
+    if (transfer.kind == TransferKind::update) state.update_slots = std::max(state.update_slots, transfer.update_slot + 1);
+}
+
+Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents) {
+  RG_TRY(check_extents(state.context.plan, extents));
+  Result<std::unique_ptr<Sized>> sized = create_sized(state.context, state.objects, extents);
+  if (!sized) return sized.error();
+  state.retired.reserve(state.retired.size() + 1);
+  const Status submitted = submit_prologue(state, **sized);
+  if (!submitted) return submitted.error();
+  if (state.sized) state.retired.push_back({state.submitted, std::move(state.sized)});
+  state.sized = std::move(*sized);
+  state.imports_applied = false;
+  return Done{};
+}
+
+}  // namespace
+
+Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
+  RG_TRY(check_plan(plan));
+  RG_TRY(check_options(plan, options));
+  auto state = std::make_unique<State>(make_context(device, plan, options));
+  count_slots(*state);
+  RG_TRY(create_samplers(state->context, state->objects));
+  RG_TRY(create_pass_objects(state->context, state->objects));
+  RG_TRY(create_frames(*state));
+  const std::vector<int64_t> initial = initial_extents(plan);
+  RG_TRY(rebuild(*state, options.extents.empty() ? std::span<const int64_t>(initial) : options.extents));
+  return GraphInstance(std::move(state));
+}
+
+Status GraphInstance::resize(std::span<const int64_t> extents) { return rebuild(*state_, extents); }
+
+Status GraphInstance::execute(const FrameInputs& inputs) { return execute_frame(*state_, inputs); }
+
+Status GraphInstance::wait_idle() {
+  RG_TRY(wait_for(*state_, state_->submitted));
+  return release_retired(*state_);
+}
+
+const PassInfo& GraphInstance::pass_info(Index pass) const { return state_->sized->passes[pass].info; }
+MemoryReport GraphInstance::memory() const { return state_->sized->report; }
+std::vector<PlacedResource> GraphInstance::placements() const { return state_->sized->placements; }
+uint64_t GraphInstance::frame() const { return state_->frame; }
+
+}  // namespace rg

@@ -1,0 +1,188 @@
+#include "runtime/memory.h"
+
+#include <algorithm>
+
+#include "runtime/alias.h"
+#include "runtime/errors.h"
+#include "runtime/packing.h"
+#include "runtime/resolve.h"
+#include "runtime/resources.h"
+
+namespace rg {
+
+namespace {
+
+enum class Arena : uint8_t { transient, own, host };
+
+struct Item {  // one physical copy
+  Index resource = kNone;
+  uint32_t object = 0;  // in Sized::images or Sized::buffers
+  bool is_image = true;
+  Arena arena = Arena::transient;
+  uint32_t type = UINT32_MAX;
+  VkDeviceSize bytes = 0, alignment = 1, offset = 0;
+};
+
+Arena arena_of(const Resource& resource) {
+  if (resource.lifetime == Lifetime::readback) return Arena::host;
+  return resource.lifetime == Lifetime::transient ? Arena::transient : Arena::own;
+}
+
+constexpr VkMemoryPropertyFlags kHostMemory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+uint32_t choose_type(const Context& context, Arena arena, uint32_t type_bits) {
+  if (arena == Arena::host) return find_memory_type(context.device, type_bits, kHostMemory, VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
+  return find_memory_type(context.device, type_bits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+}
+
+VkDeviceSize round_up(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
+
+// Buffers and images share heaps, so both keep to the granularity at which they must not meet.
+Item make_item(const Context& context, const Sized& sized, Index r, uint32_t object) {
+  const Resource& resource = context.plan.resources[r];
+  Item item{r, object, resource.kind == ResourceKind::image, arena_of(resource)};
+  VkMemoryRequirements requirements;
+  if (item.is_image)
+    context.vk().GetImageMemoryRequirements(context.device.device, sized.images[object].get(), &requirements);
+  else
+    context.vk().GetBufferMemoryRequirements(context.device.device, sized.buffers[object].get(), &requirements);
+  const VkDeviceSize granularity = std::max<VkDeviceSize>(context.device.limits.bufferImageGranularity, 1);
+  item.alignment = std::max(requirements.alignment, granularity);
+  item.bytes = round_up(requirements.size, granularity);
+  item.type = choose_type(context, item.arena, requirements.memoryTypeBits);
+  return item;
+}
+
+std::vector<Item> list_items(const Context& context, const Sized& sized) {
+  std::vector<Item> items;
+  for (Index r = 0; r < sized.resources.size(); ++r)
+    for (uint32_t copy = 0; copy < sized.resources[r].count; ++copy) items.push_back(make_item(context, sized, r, sized.resources[r].first + copy));
+  return items;
+}
+
+// One after the other. Returns the bytes needed.
+VkDeviceSize place_side_by_side(const std::vector<Item*>& items) {
+  VkDeviceSize end = 0;
+  for (Item* item : items) {
+    item->offset = round_up(end, item->alignment);
+    end = item->offset + item->bytes;
+  }
+  return end;
+}
+
+// Pairs of which either may take over the other's bytes, this frame or across frames. Symmetric.
+class AllowedPairs {
+ public:
+  explicit AllowedPairs(const Plan& plan) {
+    for (const AliasPair& pair : plan.alias_pairs) pairs_.push_back({pair.before, pair.after});
+    std::sort(pairs_.begin(), pairs_.end());
+  }
+  bool share(Index a, Index b) const {
+    return std::binary_search(pairs_.begin(), pairs_.end(), std::pair{a, b}) && std::binary_search(pairs_.begin(), pairs_.end(), std::pair{b, a});
+  }
+
+ private:
+  std::vector<std::pair<Index, Index>> pairs_;
+};
+
+std::vector<packing::Item> packing_items(const Plan& plan, const std::vector<Item*>& items) {
+  const std::vector<alias::GroupInterval> intervals = alias::group_intervals(plan);
+  std::vector<packing::Item> out;
+  for (const Item* item : items) {
+    const alias::GroupInterval& interval = intervals[item->resource];
+    const bool used = interval.used() && interval.begin != kNone;
+    out.push_back({item->bytes, item->alignment, used ? interval.begin : 0, used ? interval.end + 1 : 1});
+  }
+  return out;
+}
+
+// Transients share bytes where the plan allows it. Returns the bytes needed.
+VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& items, VkDeviceSize& lower_bound) {
+  const AllowedPairs allowed(context.plan);
+  std::vector<packing::Conflict> conflicts;
+  for (uint32_t a = 0; a < items.size(); ++a)
+    for (uint32_t b = a + 1; b < items.size(); ++b)
+      if (!allowed.share(items[a]->resource, items[b]->resource)) conflicts.emplace_back(a, b);
+  const packing::Placement placement = packing::pack(packing_items(context.plan, items), conflicts);
+  for (size_t i = 0; i < items.size(); ++i) items[i]->offset = placement.offsets[i];
+  lower_bound = placement.lower_bound_bytes;
+  return placement.heap_bytes;
+}
+
+Status bind(const Context& context, const Sized& sized, const Item& item, VkDeviceMemory memory) {
+  const std::string_view name = context.plan.resources[item.resource].name;
+  if (item.is_image)
+    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object].get(), memory, item.offset), "vkBindImageMemory", name);
+  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object].get(), memory, item.offset), "vkBindBufferMemory", name);
+}
+
+Status map_copies(const Context& context, Sized& sized, const std::vector<Item*>& items, VkDeviceMemory memory) {
+  void* mapped = nullptr;
+  RG_TRY(check(context.vk().MapMemory(context.device.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory", context.plan.name));
+  for (const Item* item : items) sized.host_copies[item->object] = {static_cast<std::byte*>(mapped) + item->offset, memory};
+  return Done{};
+}
+
+VkDeviceSize sum_bytes(const std::vector<Item*>& items) {
+  VkDeviceSize sum = 0;
+  for (const Item* item : items) sum += item->bytes;
+  return sum;
+}
+
+VkDeviceSize place(const Context& context, Sized& sized, Arena arena, const std::vector<Item*>& items) {
+  if (arena != Arena::transient) {
+    const VkDeviceSize heap = place_side_by_side(items);
+    (arena == Arena::own ? sized.report.persistent_bytes : sized.report.host_bytes) += heap;
+    return heap;
+  }
+  VkDeviceSize lower_bound = sum_bytes(items);
+  const VkDeviceSize heap = context.aliasing ? place_aliased(context, items, lower_bound) : place_side_by_side(items);
+  // Hand-offs see all heaps as one range of bytes.
+  for (const Item* item : items) sized.placed[item->resource] = {sized.report.heap_bytes + item->offset, item->bytes};
+  sized.report.heap_bytes += heap;
+  sized.report.unaliased_bytes += sum_bytes(items);
+  sized.report.lower_bound_bytes += lower_bound;
+  return heap;
+}
+
+Status place_arena(const Context& context, Sized& sized, Arena arena, uint32_t type, const std::vector<Item*>& items) {
+  const VkDeviceSize heap = place(context, sized, arena, items);
+  Result<UniqueMemory> memory = allocate_memory(context.device, heap, type, context.plan.name);
+  if (!memory) return memory.error();
+  for (const Item* item : items) RG_TRY(bind(context, sized, *item, memory->get()));
+  if (arena == Arena::host) RG_TRY(map_copies(context, sized, items, memory->get()));
+  sized.memories.push_back(std::move(*memory));
+  return Done{};
+}
+
+}  // namespace
+
+Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, uint32_t type, std::string_view name) {
+  if (type == UINT32_MAX) return Error{ErrorCode::unsupported, "`" + std::string(name) + "`: the device has no memory of the kind that is needed"};
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = bytes;
+  info.memoryTypeIndex = type;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  RG_TRY(check(device.vk.AllocateMemory(device.device, &info, nullptr, &memory), "vkAllocateMemory", name));
+  return UniqueMemory(device.vk, device.device, memory);
+}
+
+Status place_resources(const Context& context, Sized& sized) {
+  std::vector<Item> items = list_items(context, sized);
+  sized.placed.resize(sized.resources.size());
+  for (const Arena arena : {Arena::transient, Arena::own, Arena::host})
+    for (uint32_t type = 0; type < VK_MAX_MEMORY_TYPES; ++type) {
+      std::vector<Item*> chosen;
+      for (Item& item : items)
+        if (item.arena == arena && item.type == type) chosen.push_back(&item);
+      if (!chosen.empty()) RG_TRY(place_arena(context, sized, arena, type, chosen));
+    }
+  for (const Item& item : items) {
+    if (item.type == UINT32_MAX) return Error{ErrorCode::unsupported, "`" + std::string(context.plan.resources[item.resource].name) + "`: no memory type fits"};
+    sized.placements.push_back({context.plan.resources[item.resource].name, item.offset, item.bytes});
+  }
+  return Done{};
+}
+
+}  // namespace rg

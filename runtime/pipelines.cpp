@@ -1,0 +1,265 @@
+#include "runtime/pipelines.h"
+
+#include <algorithm>
+
+#include "runtime/errors.h"
+#include "runtime/render_pass.h"
+#include "runtime/resources.h"
+
+namespace rg {
+
+namespace {
+
+constexpr uint32_t kPassSet = static_cast<uint32_t>(SetRole::pass);
+
+Result<UniqueSetLayout> create_set_layout(const Context& context, std::span<const Binding> bindings, std::string_view name) {
+  std::vector<VkDescriptorSetLayoutBinding> rows;
+  for (const Binding& binding : bindings)
+    rows.push_back({binding.binding, static_cast<VkDescriptorType>(binding.type), 1, binding.stages, nullptr});
+  VkDescriptorSetLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  info.bindingCount = static_cast<uint32_t>(rows.size());
+  info.pBindings = rows.data();
+  VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateDescriptorSetLayout(context.device.device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout", name));
+  return UniqueSetLayout(context.vk(), context.device.device, layout);
+}
+
+// Sets in the order of their roles; roles that the pass does not use hold the empty layout.
+std::vector<VkDescriptorSetLayout> set_layouts(const Context& context, const Objects& objects, const Pass& pass, const PassObjects& out) {
+  const VkDescriptorSetLayout empty = objects.empty_set_layout.get();
+  std::vector<VkDescriptorSetLayout> layouts = {empty, out.set_layout ? out.set_layout.get() : empty};
+  if (pass.engine_set == kNone) return layouts;
+  const size_t role = static_cast<size_t>(context.plan.engine_sets[pass.engine_set].role);
+  layouts.resize(std::max(layouts.size(), role + 1), empty);
+  layouts[role] = context.engine_set_layouts[pass.engine_set];
+  return layouts;
+}
+
+Status create_layout(const Context& context, const Objects& objects, const Pass& pass, PassObjects& out) {
+  const std::vector<VkDescriptorSetLayout> sets = set_layouts(context, objects, pass, out);
+  const VkPushConstantRange push{pass.push_stages, 0, pass.push_bytes};
+  VkPipelineLayoutCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+  info.setLayoutCount = static_cast<uint32_t>(sets.size());
+  info.pSetLayouts = sets.data();
+  info.pushConstantRangeCount = pass.push_bytes != 0 ? 1 : 0;
+  info.pPushConstantRanges = &push;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreatePipelineLayout(context.device.device, &info, nullptr, &layout), "vkCreatePipelineLayout", pass.name));
+  out.layout = UniquePipelineLayout(context.vk(), context.device.device, layout);
+  return Done{};
+}
+
+// Shader modules live only until the pipelines are built.
+using Shaders = std::vector<UniqueShader>;  // by Plan::shaders
+
+Status create_shader(const Context& context, Index index, Shaders& shaders) {
+  if (shaders[index]) return Done{};
+  const ShaderModule& module = context.plan.shaders[index];
+  VkShaderModuleCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+  info.codeSize = module.words.size_bytes();
+  info.pCode = module.words.data();
+  VkShaderModule shader = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateShaderModule(context.device.device, &info, nullptr, &shader), "vkCreateShaderModule", module.name));
+  shaders[index] = UniqueShader(context.vk(), context.device.device, shader);
+  return Done{};
+}
+
+using Stages = std::vector<VkPipelineShaderStageCreateInfo>;
+Result<Stages> shader_stages(const Context& context, const Pipeline& pipeline, Shaders& shaders) {
+  Stages stages;
+  for (const Index shader : context.plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count)) {
+    RG_TRY(create_shader(context, shader, shaders));
+    VkPipelineShaderStageCreateInfo& stage = stages.emplace_back();
+    stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    stage.stage = static_cast<VkShaderStageFlagBits>(context.plan.shaders[shader].stage);
+    stage.module = shaders[shader].get();
+    stage.pName = "main";
+  }
+  return stages;
+}
+
+VkPipelineColorBlendAttachmentState blend_state(const ColorBlend& blend) {
+  VkPipelineColorBlendAttachmentState state{};
+  state.blendEnable = blend.enabled ? VK_TRUE : VK_FALSE;
+  state.srcColorBlendFactor = static_cast<VkBlendFactor>(blend.src);
+  state.dstColorBlendFactor = static_cast<VkBlendFactor>(blend.dst);
+  state.colorBlendOp = static_cast<VkBlendOp>(blend.op);
+  state.srcAlphaBlendFactor = static_cast<VkBlendFactor>(blend.src_alpha);
+  state.dstAlphaBlendFactor = static_cast<VkBlendFactor>(blend.dst_alpha);
+  state.alphaBlendOp = static_cast<VkBlendOp>(blend.op_alpha);
+  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  return state;
+}
+
+// The fixed-function state of a graphics pipeline; points into itself, so it is filled in place.
+struct GraphicsState {
+  std::vector<VkVertexInputBindingDescription> vertex_bindings;
+  std::vector<VkVertexInputAttributeDescription> vertex_attributes;
+  std::vector<VkPipelineColorBlendAttachmentState> blends;
+  VkPipelineVertexInputStateCreateInfo vertex_input{};
+  VkPipelineInputAssemblyStateCreateInfo assembly{};
+  VkPipelineTessellationStateCreateInfo tessellation{};
+  VkPipelineViewportStateCreateInfo viewport{};
+  VkPipelineRasterizationStateCreateInfo raster{};
+  VkPipelineMultisampleStateCreateInfo multisample{};
+  VkPipelineDepthStencilStateCreateInfo depth{};
+  VkPipelineColorBlendStateCreateInfo blend{};
+  VkPipelineDynamicStateCreateInfo dynamic{};
+  VkPipelineRenderingCreateInfo rendering{};
+};
+
+void fill_vertex_input(const Plan& plan, const Pipeline& pipeline, GraphicsState& state) {
+  for (uint32_t i = 0; i < pipeline.vertex_binding_count; ++i) {
+    const VertexBinding& binding = plan.vertex_bindings[pipeline.first_vertex_binding + i];
+    state.vertex_bindings.push_back({i, binding.stride, binding.per_instance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX});
+  }
+  for (const VertexAttribute& attribute : plan.vertex_attributes.subspan(pipeline.first_vertex_attribute, pipeline.vertex_attribute_count))
+    state.vertex_attributes.push_back({attribute.location, attribute.binding, static_cast<VkFormat>(attribute.format), attribute.offset});
+  state.vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+  state.vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(state.vertex_bindings.size());
+  state.vertex_input.pVertexBindingDescriptions = state.vertex_bindings.data();
+  state.vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(state.vertex_attributes.size());
+  state.vertex_input.pVertexAttributeDescriptions = state.vertex_attributes.data();
+  state.assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+  state.assembly.topology = static_cast<VkPrimitiveTopology>(pipeline.raster.topology);
+  state.tessellation.sType = VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO;
+  state.tessellation.patchControlPoints = 3;
+}
+
+void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
+  const RasterState& in = pipeline.raster;
+  state.viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+  state.viewport.viewportCount = state.viewport.scissorCount = 1;
+  state.raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+  state.raster.cullMode = in.cull;
+  state.raster.frontFace = in.front_clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
+  state.raster.depthBiasEnable = in.depth_bias_constant != 0 || in.depth_bias_slope != 0 ? VK_TRUE : VK_FALSE;
+  state.raster.depthBiasConstantFactor = in.depth_bias_constant;
+  state.raster.depthBiasSlopeFactor = in.depth_bias_slope;
+  state.raster.lineWidth = 1;
+  state.multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+  state.multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(rendering.samples);
+  state.multisample.alphaToCoverageEnable = in.alpha_to_coverage ? VK_TRUE : VK_FALSE;
+  state.depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+  state.depth.depthTestEnable = in.depth_test ? VK_TRUE : VK_FALSE;
+  state.depth.depthWriteEnable = in.depth_write ? VK_TRUE : VK_FALSE;
+  state.depth.depthCompareOp = static_cast<VkCompareOp>(in.depth_compare);
+}
+
+void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
+  for (uint32_t i = 0; i < rendering.color_count; ++i) state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
+  state.blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+  state.blend.attachmentCount = static_cast<uint32_t>(state.blends.size());
+  state.blend.pAttachments = state.blends.data();
+  static constexpr VkDynamicState kDynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  state.dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
+  state.dynamic.dynamicStateCount = 2;
+  state.dynamic.pDynamicStates = kDynamic;
+}
+
+void fill_rendering(const Context& context, const Rendering& rendering, const PassObjects& pass, GraphicsState& state) {
+  auto format = [&](Index attachment) {
+    return attachment == kNone ? VK_FORMAT_UNDEFINED : static_cast<VkFormat>(context.plan.resources[context.plan.attachments[attachment].ref.resource].format);
+  };
+  state.rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
+  state.rendering.viewMask = rendering.view_mask;
+  state.rendering.colorAttachmentCount = static_cast<uint32_t>(pass.color_formats.size());
+  state.rendering.pColorAttachmentFormats = pass.color_formats.data();
+  state.rendering.depthAttachmentFormat = format(rendering.depth);
+  state.rendering.stencilAttachmentFormat = format(rendering.stencil);
+}
+
+Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipeline, const Rendering& rendering, const PassObjects& pass,
+                                   const Stages& stages) {
+  GraphicsState state;
+  fill_vertex_input(context.plan, pipeline, state);
+  fill_raster(pipeline, rendering, state);
+  fill_blend(context.plan, pipeline, rendering, state);
+  fill_rendering(context, rendering, pass, state);
+  VkGraphicsPipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
+  info.pNext = pass.render_pass ? nullptr : &state.rendering;
+  info.renderPass = pass.render_pass.get();
+  info.stageCount = static_cast<uint32_t>(stages.size());
+  info.pStages = stages.data();
+  info.pVertexInputState = &state.vertex_input;
+  info.pInputAssemblyState = &state.assembly;
+  info.pTessellationState = &state.tessellation;
+  info.pViewportState = &state.viewport;
+  info.pRasterizationState = &state.raster;
+  info.pMultisampleState = &state.multisample;
+  info.pDepthStencilState = &state.depth;
+  info.pColorBlendState = &state.blend;
+  info.pDynamicState = &state.dynamic;
+  info.layout = pass.layout.get();
+  VkPipeline handle = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateGraphicsPipelines", pass.name));
+  return handle;
+}
+
+Result<VkPipeline> create_compute(const Context& context, const PassObjects& pass, const Stages& stages) {
+  VkComputePipelineCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+  info.stage = stages[0];
+  info.layout = pass.layout.get();
+  VkPipeline handle = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateComputePipelines", pass.name));
+  return handle;
+}
+
+Status create_pipeline(const Context& context, const Pass& pass, Shaders& shaders, PassObjects& out) {
+  const Pipeline& pipeline = context.plan.pipelines[pass.pipeline];
+  const Result<Stages> stages = shader_stages(context, pipeline, shaders);
+  if (!stages) return stages.error();
+  const bool graphics = pass.rendering != kNone;
+  const Result<VkPipeline> handle =
+      graphics ? create_graphics(context, pipeline, context.plan.renderings[pass.rendering], out, *stages) : create_compute(context, out, *stages);
+  if (!handle) return handle.error();
+  out.pipeline = UniquePipeline(context.vk(), context.device.device, *handle);
+  name_object(context.device, VK_OBJECT_TYPE_PIPELINE, *handle, out.name);
+  return Done{};
+}
+
+Status create_attachments(const Context& context, const Pass& pass, PassObjects& out) {
+  const Rendering& rendering = context.plan.renderings[pass.rendering];
+  out.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  for (const Attachment& attachment : context.plan.attachments.subspan(rendering.first_color, rendering.color_count))
+    out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
+                                                                  : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
+  if (!context.device.classic_render_passes) return Done{};
+  Result<UniqueRenderPass> render_pass = create_render_pass(context, rendering, pass.name);
+  if (!render_pass) return render_pass.error();
+  out.render_pass = std::move(*render_pass);
+  return Done{};
+}
+
+Status create_one(const Context& context, const Objects& objects, const Pass& pass, Shaders& shaders, PassObjects& out) {
+  out.name = pass.name;
+  out.module = pass.module;
+  if (pass.rendering != kNone) RG_TRY(create_attachments(context, pass, out));
+  if (pass.binding_count != 0) {
+    Result<UniqueSetLayout> layout = create_set_layout(context, context.plan.bindings.subspan(pass.first_binding, pass.binding_count), pass.name);
+    if (!layout) return layout.error();
+    out.set_layout = std::move(*layout);
+  }
+  RG_TRY(create_layout(context, objects, pass, out));
+  return pass.pipeline == kNone ? Status(Done{}) : create_pipeline(context, pass, shaders, out);
+}
+
+}  // namespace
+
+Status create_pass_objects(const Context& context, Objects& objects) {
+  static_assert(kPassSet == 1);
+  Result<UniqueSetLayout> empty = create_set_layout(context, {}, context.plan.name);
+  if (!empty) return empty.error();
+  objects.empty_set_layout = std::move(*empty);
+  objects.passes.resize(context.plan.passes.size());
+  Shaders shaders(context.plan.shaders.size());
+  for (size_t i = 0; i < context.plan.passes.size(); ++i) RG_TRY(create_one(context, objects, context.plan.passes[i], shaders, objects.passes[i]));
+  return Done{};
+}
+
+}  // namespace rg

@@ -1,0 +1,261 @@
+#include "runtime/plan_check.h"
+
+#include <string>
+#include <vector>
+
+namespace rg {
+
+namespace {
+
+// Collects the first fault; later calls are free.
+class Checker {
+ public:
+  explicit Checker(const Plan& plan) : plan_(plan) {}
+
+  void that(bool holds, std::string_view table, size_t row, std::string_view what) {
+    if (holds || !fault_.empty()) return;
+    fault_.append("plan `").append(plan_.name).append("`: ").append(table).append(" ").append(std::to_string(row)).append(": ").append(what);
+  }
+  void index(Index value, size_t size, std::string_view table, size_t row, std::string_view what) { that(value < size, table, row, what); }
+  void optional(Index value, size_t size, std::string_view table, size_t row, std::string_view what) { that(value == kNone || value < size, table, row, what); }
+  void range(Index first, uint32_t count, size_t size, std::string_view table, size_t row, std::string_view what) {
+    that(count == 0 || (first <= size && count <= size - first), table, row, what);
+  }
+  void expr(Index value, std::string_view table, size_t row, std::string_view what) { optional(value, plan_.exprs.size(), table, row, what); }
+  void ref(Ref value, ResourceKind kind, std::string_view table, size_t row, std::string_view what) {
+    index(value.resource, plan_.resources.size(), table, row, what);
+    if (ok()) that(plan_.resources[value.resource].kind == kind, table, row, what);
+  }
+  void any_ref(Ref value, std::string_view table, size_t row) { index(value.resource, plan_.resources.size(), table, row, "resource"); }
+  void bytes(const Bytes& value, std::string_view table, size_t row) {
+    expr(value.offset, table, row, "byte offset");
+    expr(value.size, table, row, "byte size");
+  }
+  bool ok() const { return fault_.empty(); }
+  Status status() const { return ok() ? Status(Done{}) : Status(Error{ErrorCode::invalid_plan, fault_}); }
+
+ private:
+  const Plan& plan_;
+  std::string fault_;
+};
+
+bool has_operands(ExprOp op) { return op != ExprOp::constant && op != ExprOp::extent; }
+
+void check_exprs(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.exprs.size(); ++i) {
+    const Expr& e = plan.exprs[i];
+    c.that(e.op <= ExprOp::mip, "expression", i, "operation");
+    if (e.op == ExprOp::extent) c.that(e.value >= 0 && static_cast<uint64_t>(e.value) < plan.extents.size() * 3, "expression", i, "extent");
+    if (!has_operands(e.op)) continue;
+    c.that(e.a == kNone || e.a < i, "expression", i, "first operand");
+    c.that(e.b == kNone || e.b < i, "expression", i, "second operand");
+  }
+}
+
+void check_resource(const Resource& resource, size_t i, Checker& c) {
+  c.that(resource.kind <= ResourceKind::buffer && resource.lifetime <= Lifetime::readback && resource.dimension <= Dimension::cube, "resource", i, "kind");
+  for (const Index expr : {resource.width, resource.height, resource.depth, resource.bytes}) c.expr(expr, "resource", i, "size");
+  c.that(resource.lifetime != Lifetime::imported || resource.import_slot < 4096, "resource", i, "import slot");
+  c.that(resource.lifetime != Lifetime::readback || resource.kind == ResourceKind::buffer, "resource", i, "only buffers are read back");
+  c.that(resource.copies >= 1 && resource.copies <= 64, "resource", i, "copies");
+  if (resource.kind != ResourceKind::image) return;
+  c.that(resource.mips >= 1 && resource.mips <= 16 && resource.layers >= 1, "resource", i, "mips or layers");
+  c.that(resource.samples >= 1 && resource.samples <= 64 && (resource.samples & (resource.samples - 1)) == 0, "resource", i, "samples");
+  c.that(resource.format != Format::undefined && resource.aspects != 0, "resource", i, "format");
+}
+
+void check_barriers(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.groups.size(); ++i) {
+    const BarrierGroup& group = plan.groups[i];
+    c.range(group.first_memory, group.memory_count, plan.memory_barriers.size(), "group", i, "memory barriers");
+    c.range(group.first_image, group.image_count, plan.image_barriers.size(), "group", i, "image barriers");
+    c.range(group.first_buffer, group.buffer_count, plan.buffer_barriers.size(), "group", i, "buffer barriers");
+  }
+  for (size_t i = 0; i < plan.image_barriers.size(); ++i) c.ref(plan.image_barriers[i].image, ResourceKind::image, "image barrier", i, "image");
+  for (size_t i = 0; i < plan.buffer_barriers.size(); ++i) {
+    c.ref(plan.buffer_barriers[i].buffer, ResourceKind::buffer, "buffer barrier", i, "buffer");
+    c.bytes(plan.buffer_barriers[i].bytes, "buffer barrier", i);
+  }
+  for (size_t i = 0; i < plan.entry.size(); ++i) c.any_ref(plan.entry[i].ref, "entry", i);
+  for (size_t i = 0; i < plan.exit.size(); ++i) c.any_ref(plan.exit[i].ref, "exit", i);
+}
+
+// Whoever takes memory must say when it lets go.
+void check_released(const Plan& plan, Checker& c) {
+  std::vector<bool> released(plan.resources.size());
+  for (const Release& release : plan.releases)
+    if (release.resource < released.size()) released[release.resource] = true;
+  for (size_t i = 0; i < plan.acquires.size(); ++i) c.that(plan.acquires[i].resource < released.size() && released[plan.acquires[i].resource], "acquire", i, "no release");
+}
+
+void check_aliases(const Plan& plan, Checker& c) {
+  check_released(plan, c);
+  for (size_t i = 0; i < plan.acquires.size(); ++i) {
+    const Acquire& acquire = plan.acquires[i];
+    c.index(acquire.resource, plan.resources.size(), "acquire", i, "resource");
+    c.index(acquire.group, plan.groups.size(), "acquire", i, "group");
+    if (acquire.image_barrier != kNone) c.range(acquire.image_barrier, acquire.image_barriers, plan.image_barriers.size(), "acquire", i, "image barriers");
+  }
+  for (size_t i = 0; i < plan.releases.size(); ++i) c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
+  for (size_t i = 0; i < plan.alias_pairs.size(); ++i) {
+    c.index(plan.alias_pairs[i].before, plan.resources.size(), "alias pair", i, "before");
+    c.index(plan.alias_pairs[i].after, plan.resources.size(), "alias pair", i, "after");
+  }
+}
+
+void check_attachment(const Plan& plan, Index i, Checker& c) {
+  if (!c.ok()) return;
+  const Attachment& attachment = plan.attachments[i];
+  if (attachment.ref.resource != kNone) c.ref(attachment.ref, ResourceKind::image, "attachment", i, "image");
+  if (attachment.resolve.resource != kNone) c.ref(attachment.resolve, ResourceKind::image, "attachment", i, "resolve");
+}
+
+void check_renderings(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.renderings.size(); ++i) {
+    const Rendering& rendering = plan.renderings[i];
+    c.range(rendering.first_color, rendering.color_count, plan.attachments.size(), "rendering", i, "colours");
+    c.that(rendering.color_count <= 8, "rendering", i, "more than 8 colours");
+    for (const Index depth : {rendering.depth, rendering.stencil}) {
+      c.optional(depth, plan.attachments.size(), "rendering", i, "depth or stencil");
+      if (c.ok() && depth != kNone) c.that(plan.attachments[depth].ref.resource != kNone, "rendering", i, "depth or stencil without an image");
+    }
+    c.expr(rendering.width, "rendering", i, "width");
+    c.expr(rendering.height, "rendering", i, "height");
+    c.that(rendering.layers >= 1 && rendering.samples >= 1, "rendering", i, "layers or samples");
+  }
+  for (Index i = 0; i < plan.attachments.size(); ++i) check_attachment(plan, i, c);
+}
+
+void check_pipelines(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.pipeline_shaders.size(); ++i) c.index(plan.pipeline_shaders[i], plan.shaders.size(), "pipeline shader", i, "shader");
+  for (size_t i = 0; i < plan.shaders.size(); ++i) c.that(!plan.shaders[i].words.empty(), "shader", i, "no code");
+  for (size_t i = 0; i < plan.pipelines.size(); ++i) {
+    const Pipeline& pipeline = plan.pipelines[i];
+    c.index(pipeline.pass, plan.passes.size(), "pipeline", i, "pass");
+    c.that(pipeline.shader_count >= 1, "pipeline", i, "no shader");
+    c.range(pipeline.first_shader, pipeline.shader_count, plan.pipeline_shaders.size(), "pipeline", i, "shaders");
+    c.range(pipeline.first_blend, pipeline.blend_count, plan.blends.size(), "pipeline", i, "blends");
+    c.range(pipeline.first_vertex_binding, pipeline.vertex_binding_count, plan.vertex_bindings.size(), "pipeline", i, "vertex bindings");
+    c.range(pipeline.first_vertex_attribute, pipeline.vertex_attribute_count, plan.vertex_attributes.size(), "pipeline", i, "vertex attributes");
+  }
+}
+
+bool is_image_type(DescriptorType type) {
+  return type == DescriptorType::combined_image_sampler || type == DescriptorType::sampled_image || type == DescriptorType::storage_image ||
+         type == DescriptorType::input_attachment;
+}
+
+void check_binding(const Plan& plan, size_t i, Checker& c) {
+  const Binding& binding = plan.bindings[i];
+  c.optional(binding.sampler, plan.samplers.size(), "binding", i, "sampler");
+  c.bytes(binding.bytes, "binding", i);
+  if (is_image_type(binding.type)) return c.ref(binding.ref, ResourceKind::image, "binding", i, "image");
+  if (binding.type == DescriptorType::sampler) return c.that(binding.sampler != kNone, "binding", i, "no sampler");
+  if (binding.type == DescriptorType::uniform_buffer_dynamic) return c.index(binding.params, plan.params.size(), "binding", i, "parameter block");
+  c.that(binding.type == DescriptorType::uniform_buffer || binding.type == DescriptorType::storage_buffer, "binding", i, "type");
+  c.ref(binding.ref, ResourceKind::buffer, "binding", i, "buffer");
+}
+
+void check_transfer(const Plan& plan, size_t i, Checker& c) {
+  const Transfer& t = plan.transfers[i];
+  c.bytes(t.src_bytes, "transfer", i);
+  c.bytes(t.dst_bytes, "transfer", i);
+  const bool from_image = t.kind == TransferKind::copy_image || t.kind == TransferKind::blit || t.kind == TransferKind::resolve || t.kind == TransferKind::copy_image_to_buffer;
+  const bool from_buffer = t.kind == TransferKind::copy_buffer || t.kind == TransferKind::copy_buffer_to_image;
+  if (from_image) c.ref(t.src, ResourceKind::image, "transfer", i, "source");
+  if (from_buffer) c.ref(t.src, ResourceKind::buffer, "transfer", i, "source");
+  if (t.kind == TransferKind::update) c.that(t.update_slot < 4096, "transfer", i, "update slot");
+  c.that(t.kind <= TransferKind::resolve, "transfer", i, "kind");
+  const bool to_buffer = t.kind == TransferKind::copy_buffer || t.kind == TransferKind::copy_image_to_buffer || t.kind == TransferKind::fill;
+  if (t.kind == TransferKind::update) return c.any_ref(t.dst, "transfer", i);
+  c.ref(t.dst, to_buffer ? ResourceKind::buffer : ResourceKind::image, "transfer", i, "target");
+}
+
+bool indirect_work(WorkKind kind) {
+  return kind == WorkKind::draw_indirect || kind == WorkKind::draw_indexed_indirect || kind == WorkKind::draw_indirect_count ||
+         kind == WorkKind::draw_indexed_indirect_count || kind == WorkKind::dispatch_indirect;
+}
+
+void check_work(const Plan& plan, const Pass& pass, size_t i, Checker& c) {
+  const Work& work = pass.work;
+  c.that(work.kind <= WorkKind::transfers, "pass", i, "work");
+  for (const Index expr : {work.x, work.y, work.z, work.arguments_offset}) c.expr(expr, "pass", i, "work size");
+  if (indirect_work(work.kind)) c.ref(work.arguments, ResourceKind::buffer, "pass", i, "indirect arguments");
+  if (work.kind == WorkKind::draw_indirect_count || work.kind == WorkKind::draw_indexed_indirect_count) c.ref(work.counts, ResourceKind::buffer, "pass", i, "draw count");
+  c.range(work.first_transfer, work.transfer_count, plan.transfers.size(), "pass", i, "transfers");
+  if (work.kind == WorkKind::host) c.that(pass.host_slot < 65536, "pass", i, "host slot");
+}
+
+uint32_t dynamic_bindings(const Plan& plan, const Pass& pass) {
+  uint32_t count = 0;
+  for (const Binding& binding : plan.bindings.subspan(pass.first_binding, pass.binding_count))
+    count += binding.type == DescriptorType::uniform_buffer_dynamic ? 1 : 0;
+  return count;
+}
+
+void check_pass(const Plan& plan, size_t i, Checker& c) {
+  const Pass& pass = plan.passes[i];
+  c.range(pass.first_access, pass.access_count, plan.accesses.size(), "pass", i, "accesses");
+  c.optional(pass.rendering, plan.renderings.size(), "pass", i, "rendering");
+  c.optional(pass.pipeline, plan.pipelines.size(), "pass", i, "pipeline");
+  c.range(pass.first_binding, pass.binding_count, plan.bindings.size(), "pass", i, "bindings");
+  c.range(pass.first_params, pass.params_count, plan.pass_params.size(), "pass", i, "parameter blocks");
+  c.optional(pass.engine_set, plan.engine_sets.size(), "pass", i, "engine set");
+  c.range(pass.first_mip_limit, pass.mip_limit_count, plan.mip_limits.size(), "pass", i, "mip limits");
+  c.that(pass.rendering == kNone || pass.kind == PassKind::raster, "pass", i, "attachments outside a raster pass");
+  if (c.ok()) c.that(dynamic_bindings(plan, pass) == pass.params_count, "pass", i, "parameter blocks and bindings differ in number");
+  check_work(plan, pass, i, c);
+}
+
+void check_schedule(const Plan& plan, Checker& c) {
+  c.that(!plan.batches.empty(), "plan", 0, "no batch");
+  for (size_t i = 0; i < plan.batches.size(); ++i) {
+    const Batch& batch = plan.batches[i];
+    c.index(batch.queue, plan.queues.size(), "batch", i, "queue");
+    c.range(batch.first_step, batch.step_count, plan.steps.size(), "batch", i, "steps");
+    c.range(batch.first_wait, batch.wait_count, plan.waits.size(), "batch", i, "waits");
+    c.range(batch.first_signal, batch.signal_count, plan.signals.size(), "batch", i, "signals");
+  }
+  for (size_t i = 0; i < plan.steps.size(); ++i) {
+    const bool barriers = plan.steps[i].kind == StepKind::barriers;
+    c.index(plan.steps[i].index, barriers ? plan.groups.size() : plan.passes.size(), "step", i, "index");
+  }
+  for (size_t i = 0; i < plan.waits.size(); ++i) {
+    c.index(plan.waits[i].queue, plan.queues.size(), "wait", i, "queue");
+    c.that(!plan.signals.empty(), "wait", i, "nothing signals");
+  }
+}
+
+void check_small_tables(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.accesses.size(); ++i) c.any_ref(plan.accesses[i].ref, "access", i);
+  for (size_t i = 0; i < plan.bindings.size(); ++i) check_binding(plan, i, c);
+  for (size_t i = 0; i < plan.transfers.size(); ++i) check_transfer(plan, i, c);
+  for (size_t i = 0; i < plan.pass_params.size(); ++i) c.index(plan.pass_params[i], plan.params.size(), "pass parameter", i, "block");
+  for (size_t i = 0; i < plan.mip_limits.size(); ++i) {
+    c.ref({plan.mip_limits[i].image, 0}, ResourceKind::image, "mip limit", i, "image");
+  }
+  for (size_t i = 0; i < plan.engine_sets.size(); ++i)
+    c.that(plan.engine_sets[i].role <= SetRole::draw && plan.engine_sets[i].role != SetRole::pass, "engine set", i, "role");
+  c.that(plan.conditions.size() <= 64, "plan", 0, "more than 64 conditions");
+}
+
+}  // namespace
+
+Status check_plan(const Plan& plan) {
+  if (plan.version != kPlanVersion)
+    return Error{ErrorCode::invalid_plan, "plan `" + std::string(plan.name) + "` has version " + std::to_string(plan.version) + "; this runtime runs version " +
+                                              std::to_string(kPlanVersion)};
+  Checker checker(plan);
+  check_exprs(plan, checker);
+  for (size_t i = 0; i < plan.resources.size(); ++i) check_resource(plan.resources[i], i, checker);
+  check_barriers(plan, checker);
+  check_aliases(plan, checker);
+  check_renderings(plan, checker);
+  check_pipelines(plan, checker);
+  check_small_tables(plan, checker);
+  for (size_t i = 0; i < plan.passes.size(); ++i) check_pass(plan, i, checker);
+  check_schedule(plan, checker);
+  return checker.status();
+}
+
+}  // namespace rg

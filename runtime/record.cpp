@@ -1,0 +1,149 @@
+#include "runtime/record.h"
+
+#include "runtime/barriers.h"
+#include "runtime/render_pass.h"
+#include "runtime/resolve.h"
+#include "runtime/transfers.h"
+
+namespace rg {
+
+namespace {
+
+void begin_label(const FrameRecording& r, const std::string& name) {
+  if (r.state.context.vk().CmdBeginDebugUtilsLabelEXT == nullptr) return;
+  VkDebugUtilsLabelEXT label{};
+  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  label.pLabelName = name.c_str();
+  r.state.context.vk().CmdBeginDebugUtilsLabelEXT(r.commands, &label);
+}
+
+void end_label(const FrameRecording& r) {
+  if (r.state.context.vk().CmdEndDebugUtilsLabelEXT != nullptr) r.state.context.vk().CmdEndDebugUtilsLabelEXT(r.commands);
+}
+
+void open_module(FrameRecording& r, const std::string& module) {
+  if (r.module == module) return;
+  close_module(r);
+  if (module.empty()) return;
+  begin_label(r, module);
+  r.module = module;
+}
+
+void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index query) {
+  if (r.queries != VK_NULL_HANDLE) r.state.context.vk().CmdWriteTimestamp2(r.commands, stage, r.queries, query);
+}
+
+void bind_engine_set(const FrameRecording& r, const Pass& pass, const PassObjects& objects) {
+  if (pass.engine_set == kNone) return;
+  const auto role = static_cast<uint32_t>(r.state.context.plan.engine_sets[pass.engine_set].role);
+  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0, nullptr);
+}
+
+VkDescriptorSet bind_pass_set(const FrameRecording& r, const PassObjects& objects, PassTable& table) {
+  if (table.set.period == 0) return VK_NULL_HANDLE;
+  const VkDescriptorSet set = table.set.sets[r.frame % table.set.period];
+  const auto section = static_cast<uint32_t>(r.frame % r.state.context.frames_in_flight * r.state.sized->ring.section);
+  for (size_t i = 0; i < table.set.block_offsets.size(); ++i) table.set.dynamic_offsets[i] = section + table.set.block_offsets[i];
+  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), 1, 1, &set,
+                                             static_cast<uint32_t>(table.set.dynamic_offsets.size()), table.set.dynamic_offsets.data());
+  return set;
+}
+
+void set_viewport(const FrameRecording& r, const RenderingTable& rendering) {
+  const VkExtent2D extent = rendering.area.extent;
+  const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
+  r.state.context.vk().CmdSetViewport(r.commands, 0, 1, &viewport);
+  r.state.context.vk().CmdSetScissor(r.commands, 0, 1, &rendering.area);
+}
+
+BufferSpan work_buffer(const FrameRecording& r, Ref ref, VkDeviceSize offset) {
+  return buffer_at(*r.state.sized, r.state.imports, r.state.context.plan, ref, {offset, VK_WHOLE_SIZE}, r.frame);
+}
+
+// Without the feature every draw is a call of its own.
+template <class Draw>
+void draw_indirect(const FrameRecording& r, Draw draw, const Work& work, const PassTable& table) {
+  const BufferSpan arguments = work_buffer(r, work.arguments, table.arguments_offset);
+  if (r.state.context.device.multi_draw_indirect || work.max_draws <= 1) return draw(r.commands, arguments.buffer, arguments.offset, work.max_draws, work.stride);
+  for (uint32_t i = 0; i < work.max_draws; ++i) draw(r.commands, arguments.buffer, arguments.offset + VkDeviceSize{i} * work.stride, 1, work.stride);
+}
+
+template <class Draw>
+void draw_indirect_count(const FrameRecording& r, Draw draw, const Work& work, const PassTable& table) {
+  const BufferSpan arguments = work_buffer(r, work.arguments, table.arguments_offset), counts = work_buffer(r, work.counts, 0);
+  draw(r.commands, arguments.buffer, arguments.offset, counts.buffer, counts.offset, work.max_draws, work.stride);
+}
+
+void dispatch(const FrameRecording& r, const PassTable& table) {
+  if (table.x != 0 && table.y != 0 && table.z != 0) r.state.context.vk().CmdDispatch(r.commands, table.x, table.y, table.z);
+}
+
+void dispatch_indirect(const FrameRecording& r, const Work& work, const PassTable& table) {
+  const BufferSpan arguments = work_buffer(r, work.arguments, table.arguments_offset);
+  r.state.context.vk().CmdDispatchIndirect(r.commands, arguments.buffer, arguments.offset);
+}
+
+void call_host(const FrameRecording& r, const Pass& pass, const PassTable& table, VkDescriptorSet set) {
+  Recording recording{r.state.context.vk(), r.commands, table.info, set};
+  r.inputs.callbacks[pass.host_slot](r.inputs.user, recording);
+}
+
+void record_work(const FrameRecording& r, const Pass& pass, const PassTable& table, VkDescriptorSet set) {
+  const DeviceFunctions& vk = r.state.context.vk();
+  switch (pass.work.kind) {
+    case WorkKind::none: return;
+    case WorkKind::host: return call_host(r, pass, table, set);
+    case WorkKind::draw: return vk.CmdDraw(r.commands, table.x, table.y, 0, 0);
+    case WorkKind::draw_indirect: return draw_indirect(r, vk.CmdDrawIndirect, pass.work, table);
+    case WorkKind::draw_indexed_indirect: return draw_indirect(r, vk.CmdDrawIndexedIndirect, pass.work, table);
+    case WorkKind::draw_indirect_count: return draw_indirect_count(r, vk.CmdDrawIndirectCount, pass.work, table);
+    case WorkKind::draw_indexed_indirect_count: return draw_indirect_count(r, vk.CmdDrawIndexedIndirectCount, pass.work, table);
+    case WorkKind::dispatch: return dispatch(r, table);
+    case WorkKind::dispatch_indirect: return dispatch_indirect(r, pass.work, table);
+    case WorkKind::transfers:
+      for (const TransferTable& transfer : table.transfers)
+        record_transfer(r.state.context, *r.state.sized, r.state.imports, transfer, r.commands, r.frame);
+      return;
+  }
+}
+
+void record_body(const FrameRecording& r, const Pass& pass, const PassObjects& objects, PassTable& table) {
+  const Context& context = r.state.context;
+  if (pass.rendering != kNone) {
+    begin_rendering(context, *r.state.sized, table, r.commands, r.frame);
+    set_viewport(r, table.rendering);
+  }
+  if (objects.pipeline) context.vk().CmdBindPipeline(r.commands, objects.bind_point, objects.pipeline.get());
+  bind_engine_set(r, pass, objects);
+  record_work(r, pass, table, bind_pass_set(r, objects, table));
+  if (pass.rendering != kNone) end_rendering(context, table, r.commands);
+}
+
+void record_pass(FrameRecording& r, Index index) {
+  const Pass& pass = r.state.context.plan.passes[index];
+  const PassObjects& objects = r.state.objects.passes[index];
+  PassTable& table = r.state.sized->passes[index];
+  open_module(r, objects.module);
+  begin_label(r, objects.name);
+  write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
+  if (table.runs && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
+  write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
+  if (r.state.dump.pass == index && r.state.dump.value == 0) record_dump(r, index);
+  end_label(r);
+}
+
+}  // namespace
+
+void close_module(FrameRecording& r) {
+  if (!r.module.empty()) end_label(r);
+  r.module = {};
+}
+
+void record_step(FrameRecording& r, const Step& step) {
+  if (step.kind == StepKind::barriers)
+    record_group(r.state.context, *r.state.sized, step.index, r.commands, r.frame);
+  else
+    record_pass(r, step.index);
+}
+
+}  // namespace rg

@@ -1,0 +1,23 @@
+// Commands of the steps of a frame, in whatever command buffer they go to.
+#pragma once
+
+#include "runtime/graph_state.h"
+
+namespace rg {
+
+struct FrameRecording {
+  GraphInstance::State& state;
+  const FrameInputs& inputs;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  uint64_t frame = 0;
+  VkQueryPool queries = VK_NULL_HANDLE;  // null: no timestamps
+  std::string_view module;               // whose label is open
+};
+
+void record_step(FrameRecording& recording, const Step& step);
+void close_module(FrameRecording& recording);  // at the end of every command buffer
+
+// The dump that was asked for, right after its pass. In dump.cpp.
+void record_dump(FrameRecording& recording, Index pass);
+
+}  // namespace rg

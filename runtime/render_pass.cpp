@@ -1,0 +1,316 @@
+#include "runtime/render_pass.h"
+
+#include <bit>
+
+#include "runtime/errors.h"
+#include "runtime/resolve.h"
+#include "runtime/views.h"
+
+namespace rg {
+
+namespace {
+
+VkImageLayout to_vk(Layout layout) { return static_cast<VkImageLayout>(layout); }
+
+// A chain of structs that point at each other: built in place, never moved.
+struct RenderPassShape {
+  std::vector<VkAttachmentDescription2> descriptions;
+  std::vector<VkAttachmentReference2> colors, color_resolves;
+  VkAttachmentReference2 depth{};
+  VkAttachmentReferenceStencilLayout stencil_reference{};
+  VkAttachmentDescriptionStencilLayout stencil_description{};
+  bool has_depth = false, has_resolves = false;
+};
+
+VkAttachmentReference2 reference(uint32_t attachment, Layout layout, VkImageAspectFlags aspects) {
+  VkAttachmentReference2 out{};
+  out.sType = VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_2;
+  out.attachment = attachment;
+  out.layout = to_vk(layout);
+  out.aspectMask = aspects;
+  return out;
+}
+
+VkAttachmentDescription2 description(const Context& context, Ref ref, Layout layout) {
+  VkAttachmentDescription2 out{};
+  out.sType = VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2;
+  out.format = static_cast<VkFormat>(context.plan.resources[ref.resource].format);
+  out.samples = static_cast<VkSampleCountFlagBits>(context.plan.resources[ref.resource].samples);
+  out.loadOp = out.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  out.storeOp = out.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+  out.initialLayout = out.finalLayout = to_vk(layout);
+  return out;
+}
+
+void add_color(const Context& context, const Attachment& attachment, RenderPassShape& shape) {
+  if (attachment.ref.resource == kNone) {
+    shape.colors.push_back(reference(VK_ATTACHMENT_UNUSED, Layout::undefined, 0));
+    return;
+  }
+  VkAttachmentDescription2 color = description(context, attachment.ref, attachment.layout);
+  color.loadOp = load_op(context.device, attachment.load);
+  color.storeOp = store_op(attachment.store);
+  shape.colors.push_back(reference(static_cast<uint32_t>(shape.descriptions.size()), attachment.layout, VK_IMAGE_ASPECT_COLOR_BIT));
+  shape.descriptions.push_back(color);
+}
+
+// Depth and stencil are one attachment with two layouts here; an aspect that the pass does not name is left as it is.
+void add_depth(const Context& context, const Rendering& rendering, RenderPassShape& shape) {
+  const Attachment* depth = rendering.depth == kNone ? nullptr : &context.plan.attachments[rendering.depth];
+  const Attachment* stencil = rendering.stencil == kNone ? nullptr : &context.plan.attachments[rendering.stencil];
+  const Attachment& any = depth != nullptr ? *depth : *stencil;
+  VkAttachmentDescription2 out = description(context, any.ref, any.layout);
+  out.storeOp = out.stencilStoreOp = VK_ATTACHMENT_STORE_OP_NONE;
+  if (depth != nullptr) out.loadOp = load_op(context.device, depth->load), out.storeOp = store_op(depth->store);
+  if (stencil != nullptr) out.stencilLoadOp = load_op(context.device, stencil->load), out.stencilStoreOp = store_op(stencil->store);
+  const VkImageAspectFlags aspects = context.plan.resources[any.ref.resource].aspects;
+  shape.depth = reference(static_cast<uint32_t>(shape.descriptions.size()), any.layout, aspects);
+  const bool split = stencil != nullptr && depth != nullptr && stencil->layout != depth->layout;
+  if (split) {
+    shape.stencil_reference = {VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_STENCIL_LAYOUT, nullptr, to_vk(stencil->layout)};
+    shape.stencil_description = {VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT, nullptr, to_vk(stencil->layout), to_vk(stencil->layout)};
+    shape.depth.pNext = &shape.stencil_reference;
+    out.pNext = &shape.stencil_description;
+  }
+  shape.descriptions.push_back(out);
+  shape.has_depth = true;
+}
+
+void add_resolve(const Context& context, const Attachment& attachment, RenderPassShape& shape) {
+  if (!resolves(attachment)) {
+    shape.color_resolves.push_back(reference(VK_ATTACHMENT_UNUSED, Layout::undefined, 0));
+    return;
+  }
+  VkAttachmentDescription2 target = description(context, attachment.resolve, attachment.resolve_layout);
+  target.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  shape.color_resolves.push_back(reference(static_cast<uint32_t>(shape.descriptions.size()), attachment.resolve_layout, VK_IMAGE_ASPECT_COLOR_BIT));
+  shape.descriptions.push_back(target);
+  shape.has_resolves = true;
+}
+
+void fill_shape(const Context& context, const Rendering& rendering, RenderPassShape& shape) {
+  const std::span<const Attachment> colors = context.plan.attachments.subspan(rendering.first_color, rendering.color_count);
+  for (const Attachment& color : colors) add_color(context, color, shape);
+  if (depth_or_stencil(rendering) != kNone) add_depth(context, rendering, shape);
+  for (const Attachment& color : colors) add_resolve(context, color, shape);
+}
+
+VkImageUsageFlags attachment_usage(const Context& context, Ref ref) {
+  const bool color = (context.plan.resources[ref.resource].aspects & VK_IMAGE_ASPECT_COLOR_BIT) != 0;
+  return color ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+}
+
+Result<ViewRef> attachment_view(const Context& context, Sized& sized, const Rendering& rendering, Ref ref, Range range) {
+  if (ref.resource == kNone) return ViewRef{};
+  range.mips = 1;
+  const bool arrayed = rendering.layers > 1 || rendering.view_mask != 0;
+  return create_views(context, sized, {ref, range, Dimension::d2, arrayed, Format::undefined, attachment_usage(context, ref), true});
+}
+
+VkRenderingAttachmentInfo attachment_info(const Context& context, const Attachment& attachment) {
+  VkRenderingAttachmentInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  if (attachment.ref.resource == kNone) return info;
+  info.imageLayout = to_vk(attachment.layout);
+  info.loadOp = load_op(context.device, attachment.load);
+  info.storeOp = store_op(attachment.store);
+  info.clearValue = clear_value(context, attachment);
+  if (!resolves(attachment)) return info;
+  info.resolveMode = attachment.resolve_mode == 0 ? VK_RESOLVE_MODE_AVERAGE_BIT : static_cast<VkResolveModeFlagBits>(attachment.resolve_mode);
+  info.resolveImageLayout = to_vk(attachment.resolve_layout);
+  return info;
+}
+
+Status add_attachment(const Context& context, Sized& sized, const Rendering& rendering, Index index, PassTable& pass) {
+  const Attachment& attachment = context.plan.attachments[index];
+  Result<ViewRef> view = attachment_view(context, sized, rendering, attachment.ref, attachment.range);
+  if (!view) return view.error();
+  Result<ViewRef> resolve = attachment_view(context, sized, rendering, attachment.resolve, attachment.resolve_range);
+  if (!resolve) return resolve.error();
+  pass.rendering.views.push_back(*view);
+  pass.rendering.resolve_views.push_back(*resolve);
+  pass.rendering.attachments.push_back(attachment_info(context, attachment));
+  pass.runs &= view->exists && resolve->exists;
+  return Done{};
+}
+
+// The same order as fill_shape.
+void list_framebuffer_views(const Context& context, const Rendering& plan, RenderingTable& table) {
+  auto add = [&](const ViewRef& view, const VkClearValue& clear) {
+    if (view.ref.resource == kNone) return;
+    table.framebuffer_views.push_back(view);
+    table.clears.push_back(clear);
+  };
+  for (uint32_t i = 0; i < plan.color_count; ++i) add(table.views[i], table.attachments[i].clearValue);
+  if (depth_or_stencil(plan) != kNone) {
+    VkClearValue clear = table.attachments[plan.color_count].clearValue;
+    if (plan.depth != kNone && plan.stencil != kNone) clear.depthStencil.stencil = table.attachments[plan.color_count + 1].clearValue.depthStencil.stencil;
+    add(table.views[plan.color_count], clear);
+  }
+  for (uint32_t i = 0; i < plan.color_count; ++i)
+    if (resolves(context.plan.attachments[plan.first_color + i])) add(table.resolve_views[i], {});
+  table.framebuffer_handles.resize(table.framebuffer_views.size());
+}
+
+}  // namespace
+
+VkAttachmentLoadOp load_op(const Device::State& device, LoadOp op) {
+  switch (op) {
+    case LoadOp::clear: return VK_ATTACHMENT_LOAD_OP_CLEAR;
+    case LoadOp::dont_care: return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    case LoadOp::none: return device.load_op_none ? VK_ATTACHMENT_LOAD_OP_NONE_EXT : VK_ATTACHMENT_LOAD_OP_LOAD;
+    default: return VK_ATTACHMENT_LOAD_OP_LOAD;
+  }
+}
+
+VkAttachmentStoreOp store_op(StoreOp op) {
+  if (op == StoreOp::none) return VK_ATTACHMENT_STORE_OP_NONE;
+  return op == StoreOp::store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+}
+
+VkClearValue clear_value(const Context& context, const Attachment& attachment) {
+  VkClearValue value{};
+  if ((context.plan.resources[attachment.ref.resource].aspects & aspect_color) != 0)
+    for (int i = 0; i < 4; ++i) value.color.uint32[i] = attachment.clear.word[i];
+  else
+    value.depthStencil = {std::bit_cast<float>(attachment.clear.word[0]), attachment.clear.word[1]};
+  return value;
+}
+
+Result<UniqueRenderPass> create_render_pass(const Context& context, const Rendering& rendering, std::string_view name) {
+  RenderPassShape shape;
+  fill_shape(context, rendering, shape);
+  VkSubpassDescription2 subpass{};
+  subpass.sType = VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2;
+  subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+  subpass.viewMask = rendering.view_mask;
+  subpass.colorAttachmentCount = static_cast<uint32_t>(shape.colors.size());
+  subpass.pColorAttachments = shape.colors.data();
+  subpass.pResolveAttachments = shape.has_resolves ? shape.color_resolves.data() : nullptr;
+  subpass.pDepthStencilAttachment = shape.has_depth ? &shape.depth : nullptr;
+  VkRenderPassCreateInfo2 info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO_2;
+  info.attachmentCount = static_cast<uint32_t>(shape.descriptions.size());
+  info.pAttachments = shape.descriptions.data();
+  info.subpassCount = 1;
+  info.pSubpasses = &subpass;
+  VkRenderPass pass = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateRenderPass2(context.device.device, &info, nullptr, &pass), "vkCreateRenderPass2", name));
+  return UniqueRenderPass(context.vk(), context.device.device, pass);
+}
+
+Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass) {
+  RenderingTable& table = pass.rendering;
+  table.area.extent = pass.info.extent;
+  table.layers = rendering.layers;
+  table.view_mask = rendering.view_mask;
+  table.color_count = rendering.color_count;
+  for (uint32_t i = 0; i < rendering.color_count; ++i) RG_TRY(add_attachment(context, sized, rendering, rendering.first_color + i, pass));
+  table.has_depth = rendering.depth != kNone;
+  table.has_stencil = rendering.stencil != kNone;
+  if (table.has_depth) RG_TRY(add_attachment(context, sized, rendering, rendering.depth, pass));
+  if (table.has_stencil) RG_TRY(add_attachment(context, sized, rendering, rendering.stencil, pass));
+  list_framebuffer_views(context, rendering, table);
+  return Done{};
+}
+
+namespace {
+
+Result<UniqueFramebuffer> create_framebuffer(const Context& context, const PassTable& pass, const std::vector<VkImageView>& views) {
+  VkFramebufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+  info.renderPass = pass.info.render_pass;
+  info.attachmentCount = static_cast<uint32_t>(views.size());
+  info.pAttachments = views.data();
+  info.width = pass.rendering.area.extent.width;
+  info.height = pass.rendering.area.extent.height;
+  info.layers = pass.rendering.view_mask != 0 ? 1 : pass.rendering.layers;
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateFramebuffer(context.device.device, &info, nullptr, &framebuffer), "vkCreateFramebuffer", pass.info.name));
+  return UniqueFramebuffer(context.vk(), context.device.device, framebuffer);
+}
+
+FramebufferEntry* find_framebuffer(RenderingTable& table) {
+  for (FramebufferEntry& entry : table.framebuffers)
+    if (entry.views == table.framebuffer_handles) return &entry;
+  return nullptr;
+}
+
+// Those of imports that are no longer seen would pile up.
+FramebufferEntry& framebuffer_slot(RenderingTable& table) {
+  constexpr size_t kMost = 64;
+  if (table.framebuffers.size() < kMost) return table.framebuffers.emplace_back();
+  FramebufferEntry* oldest = &table.framebuffers[0];
+  for (FramebufferEntry& entry : table.framebuffers)
+    if (entry.frame < oldest->frame) oldest = &entry;
+  return *oldest;
+}
+
+Status update_framebuffer(const Context& context, const Sized& sized, PassTable& pass, uint64_t frame) {
+  RenderingTable& table = pass.rendering;
+  for (size_t i = 0; i < table.framebuffer_views.size(); ++i) table.framebuffer_handles[i] = view_at(sized, table.framebuffer_views[i], frame);
+  FramebufferEntry* entry = find_framebuffer(table);
+  if (entry == nullptr) {
+    Result<UniqueFramebuffer> created = create_framebuffer(context, pass, table.framebuffer_handles);
+    if (!created) return created.error();
+    entry = &framebuffer_slot(table);
+    *entry = {table.framebuffer_handles, std::move(*created), 0};
+  }
+  entry->frame = frame;
+  table.framebuffer = entry->framebuffer.get();
+  return Done{};
+}
+
+void begin_classic(const Context& context, PassTable& pass, VkCommandBuffer commands) {
+  RenderingTable& table = pass.rendering;
+  VkRenderPassBeginInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+  info.renderPass = pass.info.render_pass;
+  info.framebuffer = table.framebuffer;
+  info.renderArea = table.area;
+  info.clearValueCount = static_cast<uint32_t>(table.clears.size());
+  info.pClearValues = table.clears.data();
+  context.vk().CmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+void begin_dynamic(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame) {
+  RenderingTable& table = pass.rendering;
+  for (size_t i = 0; i < table.attachments.size(); ++i) {
+    table.attachments[i].imageView = view_at(sized, table.views[i], frame);
+    table.attachments[i].resolveImageView = view_at(sized, table.resolve_views[i], frame);
+  }
+  VkRenderingInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea = table.area;
+  info.layerCount = table.layers;
+  info.viewMask = table.view_mask;
+  info.colorAttachmentCount = table.color_count;
+  info.pColorAttachments = table.attachments.data();
+  info.pDepthAttachment = table.has_depth ? &table.attachments[table.color_count] : nullptr;
+  info.pStencilAttachment = table.has_stencil ? &table.attachments[table.color_count + (table.has_depth ? 1 : 0)] : nullptr;
+  context.vk().CmdBeginRendering(commands, &info);
+}
+
+}  // namespace
+
+Status update_framebuffers(const Context& context, Sized& sized, uint64_t frame) {
+  for (PassTable& pass : sized.passes)
+    if (pass.runs && pass.info.render_pass != VK_NULL_HANDLE) RG_TRY(update_framebuffer(context, sized, pass, frame));
+  return Done{};
+}
+
+void begin_rendering(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame) {
+  if (pass.info.render_pass != VK_NULL_HANDLE)
+    begin_classic(context, pass, commands);
+  else
+    begin_dynamic(context, sized, pass, commands, frame);
+}
+
+void end_rendering(const Context& context, const PassTable& pass, VkCommandBuffer commands) {
+  if (pass.info.render_pass != VK_NULL_HANDLE)
+    context.vk().CmdEndRenderPass(commands);
+  else
+    context.vk().CmdEndRendering(commands);
+}
+
+}  // namespace rg

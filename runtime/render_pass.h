@@ -1,0 +1,31 @@
+// Attachments of a raster pass in the two forms Vulkan knows. Validation records classic render passes because the layer of Debian 12
+// does not see attachments of dynamic rendering; everything else uses dynamic rendering.
+//
+// Attachments of the classic form: colours, then the depth and stencil attachment (one view), then the resolve targets of the colours.
+#pragma once
+
+#include "runtime/graph_state.h"
+
+namespace rg {
+
+inline Index depth_or_stencil(const Rendering& rendering) { return rendering.depth != kNone ? rendering.depth : rendering.stencil; }
+inline bool resolves(const Attachment& attachment) { return attachment.ref.resource != kNone && attachment.resolve.resource != kNone; }
+
+// LOAD_OP_NONE needs an extension; loading keeps the contents just as well.
+VkAttachmentLoadOp load_op(const Device::State& device, LoadOp op);
+VkAttachmentStoreOp store_op(StoreOp op);
+VkClearValue clear_value(const Context& context, const Attachment& attachment);
+
+Result<UniqueRenderPass> create_render_pass(const Context& context, const Rendering& rendering, std::string_view name);
+
+// Views and attachment infos; pass.info.extent is the render area.
+Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass);
+
+// Only where classic render passes are recorded: finds or creates the framebuffer of every pass for this frame.
+Status update_framebuffers(const Context& context, Sized& sized, uint64_t frame);
+
+// Allocates nothing.
+void begin_rendering(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame);
+void end_rendering(const Context& context, const PassTable& pass, VkCommandBuffer commands);
+
+}  // namespace rg

@@ -1,0 +1,30 @@
+// Images, buffers, the ring and their memory at given extents.
+#pragma once
+
+#include "runtime/graph_state.h"
+
+namespace rg {
+
+// Evaluates sizes of every resource; no Vulkan objects yet. Fails where the device's limits are exceeded.
+Status size_resources(const Context& context, Sized& sized);
+
+// Creates images and buffers, places and binds them, fills the memory report.
+Status create_resources(const Context& context, Sized& sized);
+
+// A buffer of its own in mapped host memory.
+struct HostBuffer { UniqueMemory memory; UniqueBuffer buffer; std::byte* mapped = nullptr; };
+Result<HostBuffer> create_host_buffer(Device::State& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
+                                      std::string_view name);
+
+uint32_t find_memory_type(const Device::State& device, uint32_t type_bits, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred);
+
+// Names an object for tools, where they listen.
+template <class Handle>
+void name_object(const Device::State& device, VkObjectType type, Handle handle, std::string_view name);
+void name_object(const Device::State& device, VkObjectType type, uint64_t handle, std::string_view name);
+template <class Handle>
+void name_object(const Device::State& device, VkObjectType type, Handle handle, std::string_view name) {
+  name_object(device, type, reinterpret_cast<uint64_t>(handle), name);
+}
+
+}  // namespace rg
