@@ -20,10 +20,10 @@ struct Aliases {
   const Model& model;
   const SyncResult& sync;
   Report& report;
-  std::vector<Hand> hands;                                // by plan resource
-  std::set<std::tuple<uint32_t, uint32_t, bool>> pairs;   // before, after, wraps
-  std::vector<uint32_t> step_of_group;                    // by plan group
-  std::vector<bool> used;                                 // by cell of the model, copy 0
+  std::vector<Hand> hands;                               // by plan resource
+  std::set<std::tuple<uint32_t, uint32_t, bool>> pairs;  // before, after, wraps
+  std::vector<uint32_t> step_of_group;                   // by plan group
+  std::vector<bool> used;                                // by cell of the model, copy 0
 };
 
 const Plan& plan_of(const Aliases& aliases) { return aliases.model.input->plan; }
@@ -120,7 +120,8 @@ void check_release_exact(Aliases& aliases, uint32_t plan_resource) {
   }
   const std::string name(plan_of(aliases).resources[plan_resource].name);
   const StageSet more = expand_stages(release->stages) & ~stages;
-  if (more) aliases.report.add({Hazard::redundant, name, "", "", "the release of `" + name + "` names " + stages_text(more) + ", where nothing uses it"});
+  if (more)
+    aliases.report.add({Hazard::redundant, name, "", "", "the release of `" + name + "` names " + stages_text(more) + ", where nothing uses it"});
   if (expand_accesses(release->accesses) & ~accesses)
     aliases.report.add({Hazard::redundant, name, "", "", "the release of `" + name + "` names accesses that are no writes of its last users"});
 }
@@ -138,7 +139,8 @@ void check_discards(Aliases& aliases, uint32_t plan_resource, const Acquire& acq
     for (const uint32_t cell : scope.cells) covered[cell] = true;
   }
   for (uint32_t c = 0; c < covered.size(); ++c)
-    if (!covered[c] && aliases.used[aliases.model.cell(r, 0, c)]) report_alias(aliases, plan_resource, "the acquire's barriers do not cover " + aliases.model.place(r, c));
+    if (!covered[c] && aliases.used[aliases.model.cell(r, 0, c)])
+      report_alias(aliases, plan_resource, "the acquire's barriers do not cover " + aliases.model.place(r, c));
 }
 
 void check_acquire(Aliases& aliases, uint32_t plan_resource) {
@@ -161,7 +163,8 @@ void check_pair(Aliases& aliases, const AliasPair& pair) {
   const Hand& after = aliases.hands[pair.after];
   const uint32_t before = source_of(aliases, pair.before);
   for (const uint32_t resource : {pair.before, pair.after})
-    if (!may_share(aliases.model.resource(source_of(aliases, resource)))) report_alias(aliases, resource, "it may not share memory, but a pair names it");
+    if (!may_share(aliases.model.resource(source_of(aliases, resource))))
+      report_alias(aliases, resource, "it may not share memory, but a pair names it");
   if (pair.wraps || after.acquire_step == kNone) return;
   if (aliases.sync.last_use[before] != kNone && aliases.sync.last_use[before] > after.acquire_step)
     report_alias(aliases, pair.before, "`" + std::string(plan_of(aliases).resources[pair.after].name) + "` may take it over before its last use");
@@ -177,15 +180,19 @@ void check_places(Aliases& aliases) {
   const Plan& plan = plan_of(aliases);
   std::vector<uint32_t> order;
   for (uint32_t r = 0; r < plan.resources.size(); ++r)
-    if (plan.resources[r].lifetime == Lifetime::transient && plan.resources[r].estimated_bytes != 0 && aliases.sync.first_use[source_of(aliases, r)] != kNone) order.push_back(r);
+    if (plan.resources[r].lifetime == Lifetime::transient && plan.resources[r].estimated_bytes != 0 &&
+        aliases.sync.first_use[source_of(aliases, r)] != kNone)
+      order.push_back(r);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
     return std::tie(plan.resources[a].estimated_offset, a) < std::tie(plan.resources[b].estimated_offset, b);
   });
   for (size_t i = 0; i < order.size(); ++i) {
     const Resource& first = plan.resources[order[i]];
-    if (first.estimated_alignment != 0 && first.estimated_offset % first.estimated_alignment != 0) report_alias(aliases, order[i], "its estimated offset is not aligned");
+    if (first.estimated_alignment != 0 && first.estimated_offset % first.estimated_alignment != 0)
+      report_alias(aliases, order[i], "its estimated offset is not aligned");
     for (size_t j = i + 1; j < order.size() && plan.resources[order[j]].estimated_offset < first.estimated_offset + first.estimated_bytes; ++j)
-      if (!pair_allowed(aliases, order[i], order[j])) report_alias(aliases, order[i], "it shares bytes with `" + std::string(plan.resources[order[j]].name) + "`, which no pair allows");
+      if (!pair_allowed(aliases, order[i], order[j]))
+        report_alias(aliases, order[i], "it shares bytes with `" + std::string(plan.resources[order[j]].name) + "`, which no pair allows");
   }
 }
 

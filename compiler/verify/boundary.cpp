@@ -17,23 +17,32 @@ void add_row(Pending& pending, const BoundaryNode& row, uint32_t aspect) {
 Layout layout_of_state(dsl::Role role, uint32_t aspect) {
   switch (role) {
     case dsl::Role::sampled:
-    case dsl::Role::input: return aspect == aspect_color ? Layout::shader_read_only : layout_of_aspect(Layout::depth_stencil_read_only, aspect);
+    case dsl::Role::input:
+      return aspect == aspect_color ? Layout::shader_read_only : layout_of_aspect(Layout::depth_stencil_read_only, aspect);
     case dsl::Role::color:
     case dsl::Role::resolve_src:
-    case dsl::Role::resolve_dst: return aspect == aspect_color ? Layout::color_attachment : layout_of_aspect(Layout::depth_stencil_attachment, aspect);
+    case dsl::Role::resolve_dst:
+      return aspect == aspect_color ? Layout::color_attachment : layout_of_aspect(Layout::depth_stencil_attachment, aspect);
     case dsl::Role::depth:
-    case dsl::Role::stencil: return layout_of_aspect(Layout::depth_stencil_attachment, aspect);
-    case dsl::Role::depth_readonly: return layout_of_aspect(Layout::depth_stencil_read_only, aspect);
+    case dsl::Role::stencil:
+      return layout_of_aspect(Layout::depth_stencil_attachment, aspect);
+    case dsl::Role::depth_readonly:
+      return layout_of_aspect(Layout::depth_stencil_read_only, aspect);
     case dsl::Role::copy_src:
-    case dsl::Role::blit_src: return Layout::transfer_src;
+    case dsl::Role::blit_src:
+      return Layout::transfer_src;
     case dsl::Role::copy_dst:
     case dsl::Role::blit_dst:
     case dsl::Role::clear_dst:
     case dsl::Role::fill_dst:
-    case dsl::Role::update_dst: return Layout::transfer_dst;
-    case dsl::Role::present: return Layout::present_src;
-    case dsl::Role::undefined: return Layout::undefined;
-    default: return Layout::general;
+    case dsl::Role::update_dst:
+      return Layout::transfer_dst;
+    case dsl::Role::present:
+      return Layout::present_src;
+    case dsl::Role::undefined:
+      return Layout::undefined;
+    default:
+      return Layout::general;
   }
 }
 
@@ -49,15 +58,14 @@ std::string why_not_covered(const WriteRecord& write, const Pending& pending) {
       if ((pending.accesses[s] & kAllWrites) && (write.reach.stages & stage_bit(s))) return "";
     return "no named write comes after its last write";
   }
-  if (pending.stages & ~write.reach.stages) return "stage " + stages_text(pending.stages & ~write.reach.stages) + " is not ordered after its last write";
+  if (pending.stages & ~write.reach.stages)
+    return "stage " + stages_text(pending.stages & ~write.reach.stages) + " is not ordered after its last write";
   for (uint32_t s = 0; s < kStageCount; ++s)
     if (!pending.discard && (pending.accesses[s] & kAllReads & ~write.visible[s])) return "its last write is not visible to " + stage_name(s);
   return "";
 }
 
-bool same_layout(const CellState& state, const Pending& pending) {
-  return pending.layout == Layout::undefined || state.layout == pending.layout;
-}
+bool same_layout(const CellState& state, const Pending& pending) { return pending.layout == Layout::undefined || state.layout == pending.layout; }
 
 // The frame after: copies of a history resource are one frame older.
 uint32_t next_cell(const Model& model, uint32_t resource, uint32_t copy, uint32_t cell) {
@@ -176,7 +184,8 @@ void check_boundaries(const Model& model, Report& report) {
         const Pending& left = exit[model.cell(r, copy, c)];
         // The copy that is `age` frames old now keeps its memory and is one frame older at the next entry.
         const Pending& found = entry[next_cell(model, r, copy, c)];
-        if (left.stated != found.stated) report_boundary(model, r, c, left.stated ? "the entry state is missing" : "the exit state is missing", report);
+        if (left.stated != found.stated)
+          report_boundary(model, r, c, left.stated ? "the entry state is missing" : "the exit state is missing", report);
         if (!left.stated || !found.stated) continue;
         const std::string why = why_not_covered(state_from(left, 0), found);
         if (!why.empty()) report_boundary(model, r, c, "the next entry does not cover the exit state: " + why, report);

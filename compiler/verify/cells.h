@@ -26,8 +26,8 @@ struct Box {
 // What the partition needs to know of one resource.
 struct Shape {
   bool image = false;
-  uint32_t aspects = 1;    // buffers: 1
-  uint64_t mips = 1;       // buffers: bytes
+  uint32_t aspects = 1;  // buffers: 1
+  uint64_t mips = 1;     // buffers: bytes
   uint32_t layers = 1;
   friend bool operator==(const Shape&, const Shape&) = default;
 };

@@ -19,8 +19,8 @@ Version mix(uint64_t a, uint64_t b) {
 
 // What the host decides: which conditions hold in which frame, how many mips each image has.
 struct Outcome {
-  std::vector<bool> even, odd;   // by condition, in even and odd frames
-  std::vector<uint32_t> mips;    // by program resource
+  std::vector<bool> even, odd;  // by condition, in even and odd frames
+  std::vector<uint32_t> mips;   // by program resource
 };
 
 bool is_active(const Outcome& outcome, const dsl::Pass& pass, uint32_t frame) {
@@ -113,7 +113,8 @@ void begin_program_frame(Comparison& c, Memory& memory) {
   for (uint32_t r = 0; r < c.model.resources.size(); ++r) {
     const ResourceNode& node = c.model.resources[r];
     if (c.model.resource(r).lifetime != dsl::Lifetime::history) continue;
-    for (uint32_t cell = 0; cell < node.partition.cell_count(); ++cell) memory.versions[c.physical(r, 0, cell)] = memory.versions[c.physical(r, 1, cell)];
+    for (uint32_t cell = 0; cell < node.partition.cell_count(); ++cell)
+      memory.versions[c.physical(r, 0, cell)] = memory.versions[c.physical(r, 1, cell)];
   }
 }
 
@@ -146,8 +147,9 @@ void begin_life(Comparison& c, Memory& memory) {
 
 void report_read(Comparison& c, uint32_t plan_pass, const Use& use, uint32_t cell, Version wanted, Version actual) {
   const std::string pass = c.model.pass_name(plan_pass);
-  const std::string text = "`" + pass + "` reads " + c.model.place(use.resource, cell) + (use.age ? " of " + std::to_string(use.age) + " frames ago" : "") + ": it finds " +
-                           name_of(c, actual) + ", program order gives " + name_of(c, wanted);
+  const std::string text = "`" + pass + "` reads " + c.model.place(use.resource, cell) +
+                           (use.age ? " of " + std::to_string(use.age) + " frames ago" : "") + ": it finds " + name_of(c, actual) +
+                           ", program order gives " + name_of(c, wanted);
   c.report.add({actual == kPoison ? Hazard::poison_read : Hazard::wrong_version, c.model.resource(use.resource).name, "", pass, text});
 }
 
@@ -155,7 +157,8 @@ bool loads(const Use& use, const PassNode& node) { return !use.attachment || !no
 
 void report_load(Comparison& c, uint32_t plan_pass, const Use& use, const std::string& text) {
   const std::string pass = c.model.pass_name(plan_pass);
-  c.report.add({Hazard::lost_contents, c.model.resource(use.resource).name, "", pass, "`" + pass + "` " + text + " " + c.model.place(use.resource, use.cells.empty() ? 0 : use.cells.front())});
+  c.report.add({Hazard::lost_contents, c.model.resource(use.resource).name, "", pass,
+                "`" + pass + "` " + text + " " + c.model.place(use.resource, use.cells.empty() ? 0 : use.cells.front())});
 }
 
 void compare_read(Comparison& c, const PassNode& node, const Use& use, size_t index, Version wanted, Version actual) {
@@ -210,8 +213,10 @@ void compare_end(Comparison& c, const Memory& program, const Memory& plan) {
         const Version wanted = program.versions[at], actual = plan.versions[at];
         if (wanted == actual || wanted == kPoison || !c.exists(r, cell)) continue;
         const Hazard hazard = actual == kPoison ? Hazard::lost_contents : Hazard::wrong_version;
-        c.report.add({hazard, resource.name, "", "", "at the end of frame " + std::to_string(c.frame) + " " + c.model.place(r, cell) +
-                      (age ? " of " + std::to_string(age) + " frames ago" : "") + " holds " + name_of(c, actual) + ", program order gives " + name_of(c, wanted)});
+        c.report.add({hazard, resource.name, "", "",
+                      "at the end of frame " + std::to_string(c.frame) + " " + c.model.place(r, cell) +
+                          (age ? " of " + std::to_string(age) + " frames ago" : "") + " holds " + name_of(c, actual) + ", program order gives " +
+                          name_of(c, wanted)});
       }
   }
 }

@@ -134,7 +134,8 @@ void note_hand_overs(Model& model) {
   std::vector<std::vector<uint32_t>> by_group(plan.groups.size());
   for (uint32_t i = 0; i < plan.acquires.size(); ++i) {
     const Acquire& acquire = plan.acquires[i];
-    if (acquire.group != kNone && takes[acquire.resource] && plan.resources[acquire.resource].kind == ResourceKind::buffer) by_group[acquire.group].push_back(i);
+    if (acquire.group != kNone && takes[acquire.resource] && plan.resources[acquire.resource].kind == ResourceKind::buffer)
+      by_group[acquire.group].push_back(i);
   }
   uint32_t next = 0;
   for (const Batch& batch : plan.batches)
@@ -149,7 +150,8 @@ std::vector<BoundaryNode> make_boundaries(const Model& model, const Extents& ext
     node.resource = model.input->program_resource[row.ref.resource];
     node.age = row.ref.age;
     const Partition& partition = model.resources[node.resource].partition;
-    node.cells = cells_in(partition, partition.shape.image ? box_of(partition.shape, row.range) : box_of(model.input->plan.exprs, partition.shape, row.bytes, extents));
+    node.cells = cells_in(
+        partition, partition.shape.image ? box_of(partition.shape, row.range) : box_of(model.input->plan.exprs, partition.shape, row.bytes, extents));
     node.stages = expand_stages(row.stages);
     node.accesses = expand_accesses(row.accesses);
     node.layout = row.layout;
@@ -180,14 +182,20 @@ const Attachment* find_attachment(const Model& model, const Pass& pass, const ds
     planned.aspects = box.aspects = 0;
     return box == planned;
   };
-  if (access.role == dsl::Role::stencil) return rendering.stencil != kNone && serves(plan.attachments[rendering.stencil]) ? &plan.attachments[rendering.stencil] : nullptr;
-  if (access.role != dsl::Role::color) return rendering.depth != kNone && serves(plan.attachments[rendering.depth]) ? &plan.attachments[rendering.depth] : nullptr;
+  if (access.role == dsl::Role::stencil)
+    return rendering.stencil != kNone && serves(plan.attachments[rendering.stencil]) ? &plan.attachments[rendering.stencil] : nullptr;
+  if (access.role != dsl::Role::color)
+    return rendering.depth != kNone && serves(plan.attachments[rendering.depth]) ? &plan.attachments[rendering.depth] : nullptr;
   for (uint32_t i = 0; i < rendering.color_count; ++i)
     if (serves(plan.attachments[rendering.first_color + i])) return &plan.attachments[rendering.first_color + i];
   return nullptr;
 }
 
-struct PlanRow { std::vector<uint32_t> cells; const Access* row = nullptr; uint32_t resource = 0; };
+struct PlanRow {
+  std::vector<uint32_t> cells;
+  const Access* row = nullptr;
+  uint32_t resource = 0;
+};
 
 std::vector<PlanRow> rows_of(const Model& model, const Pass& pass, const Extents& extents) {
   std::vector<PlanRow> rows;
@@ -230,7 +238,8 @@ void take_rows(const PassContext& context, PassNode& node, Use& use, const std::
     }
     for (const Touch& touch : use.touches) {
       const bool stages = (touch.stages & ~expand_stages(row->stages)) == 0, accesses = (touch.accesses & ~expand_accesses(row->accesses)) == 0;
-      if (touch.needed && !(stages && accesses)) report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's row names other stages or accesses than the program declares");
+      if (touch.needed && !(stages && accesses))
+        report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's row names other stages or accesses than the program declares");
     }
     const dsl::Pass& pass = context.model.pass(node.plan_pass);
     const uint32_t aspect = aspect_of_cell(context.model.resources[use.resource].partition, cell);
@@ -296,7 +305,9 @@ void add_pass(const PassContext& context, uint32_t index) {
     const bool declared = std::any_of(source.accesses.begin(), source.accesses.end(), [&](const dsl::Access& access) {
       return is_attachment(access.role) && find_attachment(model, pass, access) == &row;
     });
-    if (!declared) report_pass(context, Hazard::invalid_plan, node, model.input->program_resource[row.ref.resource], "the rendering has an attachment that the pass does not declare");
+    if (!declared)
+      report_pass(context, Hazard::invalid_plan, node, model.input->program_resource[row.ref.resource],
+                  "the rendering has an attachment that the pass does not declare");
   });
 }
 
@@ -326,7 +337,10 @@ void number_renderings(Model& model) {
 void number_orders(Model& model) {
   std::vector<uint32_t> by_program(model.input->graph.passes.size(), kNone);
   for (const PassNode& node : model.passes) by_program[node.program_pass] = node.plan_pass;
-  struct Last { bool atomic = false; uint32_t order = 0; };
+  struct Last {
+    bool atomic = false;
+    uint32_t order = 0;
+  };
   std::vector<Last> last(model.cell_count);
   uint32_t next = 0;
   for (const uint32_t plan_pass : by_program) {

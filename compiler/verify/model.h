@@ -27,11 +27,11 @@ struct Use {
   uint32_t resource = 0, age = 0;  // program resource
   uint32_t access = 0;             // index in the program pass
   std::vector<uint32_t> cells;
-  std::vector<Layout> layouts;     // by cell: what the plan says the cell is in; undefined where it says nothing
-  std::vector<uint32_t> orders;    // by cell: commuting writers share a number; 0 none
+  std::vector<Layout> layouts;   // by cell: what the plan says the cell is in; undefined where it says nothing
+  std::vector<uint32_t> orders;  // by cell: commuting writers share a number; 0 none
   std::vector<Touch> touches;
   bool attachment = false, uses_contents = false, writes = false, commutes = false, clears = false;
-  LoadOp load = LoadOp::load;      // attachments
+  LoadOp load = LoadOp::load;  // attachments
   StoreOp store = StoreOp::store;
 };
 
@@ -66,7 +66,10 @@ struct GroupNode {
   std::vector<uint32_t> handed_over;  // plan's acquires of buffers that a pair lets take over memory here
 };
 
-struct StepNode { bool is_pass = false; uint32_t index = 0; };  // in passes or groups
+struct StepNode {
+  bool is_pass = false;
+  uint32_t index = 0;
+};  // in passes or groups
 
 struct BoundaryNode {
   uint32_t resource = 0, age = 0;
@@ -93,7 +96,7 @@ struct Model {
   std::vector<StepNode> steps;
   std::vector<BoundaryNode> entry, exit;
   uint32_t cell_count = 0;
-  uint32_t history = 0;                 // longest
+  uint32_t history = 0;  // longest
 
   uint32_t cell(uint32_t resource, uint32_t copy, uint32_t cell) const {
     const ResourceNode& node = resources[resource];

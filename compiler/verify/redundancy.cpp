@@ -6,7 +6,12 @@
 namespace rg::verify {
 namespace {
 
-struct Mask { AtomField field; uint64_t bits; const char* what; bool stages; };
+struct Mask {
+  AtomField field;
+  uint64_t bits;
+  const char* what;
+  bool stages;
+};
 
 std::string bit_name(const Mask& mask, uint64_t bit) {
   const uint32_t set = mask.stages ? expand_stages(bit) : expand_accesses(bit);
@@ -18,7 +23,8 @@ std::string bit_name(const Mask& mask, uint64_t bit) {
 std::string scope_text(const Model& model, const Scope& scope) {
   const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier "};
   std::string text = kinds[static_cast<size_t>(scope.kind)] + std::to_string(scope.index);
-  if (scope.kind != ScopeKind::memory) text += " on " + (scope.cells.empty() ? "`" + model.resource(scope.resource).name + "`" : model.place(scope.resource, scope.cells.front()));
+  if (scope.kind != ScopeKind::memory)
+    text += " on " + (scope.cells.empty() ? "`" + model.resource(scope.resource).name + "`" : model.place(scope.resource, scope.cells.front()));
   return text;
 }
 

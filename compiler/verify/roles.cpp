@@ -7,9 +7,13 @@ using dsl::Mode;
 using dsl::Role;
 
 StageSet declared_stages(const dsl::Access& access) {
-  struct Row { uint32_t declared; uint32_t stage; };
-  constexpr Row kRows[] = {{dsl::stage_vertex, kVertexShader},     {dsl::stage_tess_control, kTessControlShader}, {dsl::stage_tess_eval, kTessEvalShader},
-                           {dsl::stage_geometry, kGeometryShader}, {dsl::stage_fragment, kFragmentShader},        {dsl::stage_compute, kComputeShader}};
+  struct Row {
+    uint32_t declared;
+    uint32_t stage;
+  };
+  constexpr Row kRows[] = {{dsl::stage_vertex, kVertexShader},      {dsl::stage_tess_control, kTessControlShader},
+                           {dsl::stage_tess_eval, kTessEvalShader}, {dsl::stage_geometry, kGeometryShader},
+                           {dsl::stage_fragment, kFragmentShader},  {dsl::stage_compute, kComputeShader}};
   StageSet set = 0;
   for (const Row& row : kRows)
     if (access.stages & row.declared) set |= stage_bit(row.stage);
@@ -53,7 +57,8 @@ std::vector<Touch> color_touches(const dsl::Access& access, LoadOp load, StoreOp
   std::vector<Touch> touches;
   const bool reads = load == LoadOp::load || access.role == Role::resolve_src;
   touches.push_back({output, access_bit(kColorRead), reads});
-  if (!reads_only(access) || store != StoreOp::none || load == LoadOp::clear || load == LoadOp::dont_care) touches.push_back({output, access_bit(kColorWrite)});
+  if (!reads_only(access) || store != StoreOp::none || load == LoadOp::clear || load == LoadOp::dont_care)
+    touches.push_back({output, access_bit(kColorWrite)});
   return touches;
 }
 
@@ -98,33 +103,49 @@ dsl::Range effective_range(const dsl::Access& access, uint32_t format_aspects) {
 
 std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, Stages planned) {
   switch (access.role) {
-    case Role::sampled: return {{shader_stages(pass, access), access_bit(kSampledRead)}};
-    case Role::storage: return {{shader_stages(pass, access), storage_accesses(access.mode)}};
-    case Role::uniform: return {{shader_stages(pass, access), access_bit(kUniformRead)}};
-    case Role::vertex: return {{stage_bit(kVertexAttributeInput), access_bit(kVertexAttributeRead)}};
-    case Role::index: return {{stage_bit(kIndexInput), access_bit(kIndexRead)}};
-    case Role::indirect: return {{stage_bit(kDrawIndirect), access_bit(kIndirectRead)}};
-    case Role::input: return {{stage_bit(kFragmentShader), access_bit(kInputAttachmentRead)}};
-    case Role::copy_src: return {transfer(kCopy, false)};
-    case Role::copy_dst: return {transfer(kCopy, true)};
-    case Role::blit_src: return {transfer(kBlit, false)};
-    case Role::blit_dst: return {transfer(kBlit, true)};
+    case Role::sampled:
+      return {{shader_stages(pass, access), access_bit(kSampledRead)}};
+    case Role::storage:
+      return {{shader_stages(pass, access), storage_accesses(access.mode)}};
+    case Role::uniform:
+      return {{shader_stages(pass, access), access_bit(kUniformRead)}};
+    case Role::vertex:
+      return {{stage_bit(kVertexAttributeInput), access_bit(kVertexAttributeRead)}};
+    case Role::index:
+      return {{stage_bit(kIndexInput), access_bit(kIndexRead)}};
+    case Role::indirect:
+      return {{stage_bit(kDrawIndirect), access_bit(kIndirectRead)}};
+    case Role::input:
+      return {{stage_bit(kFragmentShader), access_bit(kInputAttachmentRead)}};
+    case Role::copy_src:
+      return {transfer(kCopy, false)};
+    case Role::copy_dst:
+      return {transfer(kCopy, true)};
+    case Role::blit_src:
+      return {transfer(kBlit, false)};
+    case Role::blit_dst:
+      return {transfer(kBlit, true)};
     case Role::clear_dst:
-    case Role::fill_dst: return {transfer(kClear, true)};
-    case Role::update_dst: return {transfer(expand_stages(planned) & stage_bit(kCopy) ? kCopy : kClear, true)};
+    case Role::fill_dst:
+      return {transfer(kClear, true)};
+    case Role::update_dst:
+      return {transfer(expand_stages(planned) & stage_bit(kCopy) ? kCopy : kClear, true)};
     case Role::resolve_src:
       // In a rendering the source is an attachment that the rendering itself has written.
       return {pass.kind == dsl::PassKind::raster ? Touch{stage_bit(kColorOutput), access_bit(kColorRead), false} : transfer(kResolve, false)};
     case Role::resolve_dst:
       return {pass.kind == dsl::PassKind::raster ? Touch{stage_bit(kColorOutput), access_bit(kColorWrite)} : transfer(kResolve, true)};
-    case Role::host_read: return {{stage_bit(kHost), access_bit(kHostRead)}};
-    case Role::host_write: return {{stage_bit(kHost), access_bit(kHostWrite)}};
+    case Role::host_read:
+      return {{stage_bit(kHost), access_bit(kHostRead)}};
+    case Role::host_write:
+      return {{stage_bit(kHost), access_bit(kHostWrite)}};
     case Role::color:
     case Role::depth:
     case Role::depth_readonly:
     case Role::stencil:
     case Role::present:
-    case Role::undefined: return {};
+    case Role::undefined:
+      return {};
   }
   return {};
 }
@@ -137,24 +158,34 @@ bool is_legal_layout(const dsl::Pass& pass, const dsl::Access& access, uint32_t 
   const bool raster = pass.kind == dsl::PassKind::raster;
   switch (access.role) {
     case Role::sampled:
-    case Role::input: return is_sampled_layout(aspect, layout);
-    case Role::storage: return layout == Layout::general;
+    case Role::input:
+      return is_sampled_layout(aspect, layout);
+    case Role::storage:
+      return layout == Layout::general;
     case Role::color:
     case Role::depth:
     case Role::depth_readonly:
-    case Role::stencil: return is_attachment_layout(access, aspect, layout);
-    case Role::resolve_src: return raster ? is_attachment_layout(access, aspect, layout) : layout == Layout::transfer_src || layout == Layout::general;
-    case Role::resolve_dst: return raster ? is_attachment_layout(access, aspect, layout) : layout == Layout::transfer_dst || layout == Layout::general;
+    case Role::stencil:
+      return is_attachment_layout(access, aspect, layout);
+    case Role::resolve_src:
+      return raster ? is_attachment_layout(access, aspect, layout) : layout == Layout::transfer_src || layout == Layout::general;
+    case Role::resolve_dst:
+      return raster ? is_attachment_layout(access, aspect, layout) : layout == Layout::transfer_dst || layout == Layout::general;
     case Role::copy_src:
-    case Role::blit_src: return layout == Layout::transfer_src || layout == Layout::general;
+    case Role::blit_src:
+      return layout == Layout::transfer_src || layout == Layout::general;
     case Role::copy_dst:
     case Role::blit_dst:
     case Role::clear_dst:
-    case Role::update_dst: return layout == Layout::transfer_dst || layout == Layout::general;
+    case Role::update_dst:
+      return layout == Layout::transfer_dst || layout == Layout::general;
     case Role::host_read:
-    case Role::host_write: return layout == Layout::general;
-    case Role::present: return layout == Layout::present_src;
-    default: return true;
+    case Role::host_write:
+      return layout == Layout::general;
+    case Role::present:
+      return layout == Layout::present_src;
+    default:
+      return true;
   }
 }
 

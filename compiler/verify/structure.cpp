@@ -14,7 +14,9 @@ struct Bounds {
     good = false;
     report.add({Hazard::invalid_plan, "", "", "", text});
   }
-  void slice(uint64_t first, uint64_t count, size_t size, const std::string& what) { expect(first + count <= size, what + " reach beyond their table"); }
+  void slice(uint64_t first, uint64_t count, size_t size, const std::string& what) {
+    expect(first + count <= size, what + " reach beyond their table");
+  }
 };
 
 void check_mappings(const Input& input, Bounds& bounds) {
@@ -22,17 +24,22 @@ void check_mappings(const Input& input, Bounds& bounds) {
     std::sort(values.begin(), values.end());
     return std::adjacent_find(values.begin(), values.end()) == values.end();
   };
-  bounds.expect(input.program_pass.size() == input.plan.passes.size() && unique(input.program_pass), "plan passes and program passes do not correspond");
-  bounds.expect(input.program_resource.size() == input.plan.resources.size() && unique(input.program_resource), "plan resources and program resources do not correspond");
+  bounds.expect(input.program_pass.size() == input.plan.passes.size() && unique(input.program_pass),
+                "plan passes and program passes do not correspond");
+  bounds.expect(input.program_resource.size() == input.plan.resources.size() && unique(input.program_resource),
+                "plan resources and program resources do not correspond");
   for (const uint32_t pass : input.program_pass) bounds.expect(pass < input.graph.passes.size(), "a plan pass has no program pass");
-  for (const uint32_t resource : input.program_resource) bounds.expect(resource < input.graph.resources.size(), "a plan resource has no program resource");
+  for (const uint32_t resource : input.program_resource)
+    bounds.expect(resource < input.graph.resources.size(), "a plan resource has no program resource");
   if (!bounds.good) return;
   for (uint32_t r = 0; r < input.plan.resources.size(); ++r) {
     const dsl::Resource& source = input.graph.resources.rows[input.program_resource[r]];
     const uint32_t copies = source.lifetime == dsl::Lifetime::history ? source.history + 1 : 1;
     bounds.expect(input.plan.resources[r].copies == copies, "`" + source.name + "` needs " + std::to_string(copies) + " copies");
-    bounds.expect((input.plan.resources[r].kind == ResourceKind::image) == (source.kind == dsl::ResourceKind::image), "`" + source.name + "` is planned as another kind");
-    bounds.expect(static_cast<uint32_t>(input.plan.resources[r].lifetime) == static_cast<uint32_t>(source.lifetime), "`" + source.name + "` is planned with another lifetime");
+    bounds.expect((input.plan.resources[r].kind == ResourceKind::image) == (source.kind == dsl::ResourceKind::image),
+                  "`" + source.name + "` is planned as another kind");
+    bounds.expect(static_cast<uint32_t>(input.plan.resources[r].lifetime) == static_cast<uint32_t>(source.lifetime),
+                  "`" + source.name + "` is planned with another lifetime");
   }
 }
 
@@ -48,10 +55,12 @@ void check_refs(const Input& input, Bounds& bounds) {
   for (const Attachment& attachment : plan.attachments) ref(attachment.ref, "an attachment");
   for (const Access& access : plan.accesses) ref(access.ref, "an access");
   for (const Acquire& acquire : plan.acquires)
-    bounds.expect(acquire.resource < plan.resources.size() && (acquire.group == kNone || acquire.group < plan.groups.size()), "an acquire names no resource or group");
+    bounds.expect(acquire.resource < plan.resources.size() && (acquire.group == kNone || acquire.group < plan.groups.size()),
+                  "an acquire names no resource or group");
   for (const Release& release : plan.releases) bounds.expect(release.resource < plan.resources.size(), "a release names no resource");
   for (const AliasPair& pair : plan.alias_pairs)
-    bounds.expect(pair.before < plan.resources.size() && pair.after < plan.resources.size() && pair.before != pair.after, "an alias pair names no two resources");
+    bounds.expect(pair.before < plan.resources.size() && pair.after < plan.resources.size() && pair.before != pair.after,
+                  "an alias pair names no two resources");
 }
 
 void check_tables(const Plan& plan, Bounds& bounds) {
@@ -138,11 +147,13 @@ void check_image_scope(const Usage& usage, const Scope& scope) {
   const Resource& image = usage.model.input->plan.resources[barrier.image.resource];
   if (!node.partition.shape.image) return report_scope(usage, scope, "it names a buffer");
   const Box box = box_of(node.partition.shape, barrier.range);
-  if (box.empty() || box.mip_end > node.partition.shape.mips || box.layer_end > node.partition.shape.layers) report_scope(usage, scope, "its range is outside the image");
+  if (box.empty() || box.mip_end > node.partition.shape.mips || box.layer_end > node.partition.shape.layers)
+    report_scope(usage, scope, "its range is outside the image");
   if (box.aspects & ~node.partition.shape.aspects) report_scope(usage, scope, "its aspects are not those of the format");
   if (scope.new_layout == Layout::undefined) report_scope(usage, scope, "its new layout is undefined");
   for (const Layout layout : {scope.old_layout, scope.new_layout})
-    if (usage_for(layout) != 0 && image.usage != 0 && !(usage_for(layout) & image.usage)) report_scope(usage, scope, "the image's usage does not allow layout " + layout_name(layout));
+    if (usage_for(layout) != 0 && image.usage != 0 && !(usage_for(layout) & image.usage))
+      report_scope(usage, scope, "the image's usage does not allow layout " + layout_name(layout));
   if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
 }
 
@@ -156,7 +167,8 @@ void check_buffer_scope(const Usage& usage, const Scope& scope) {
 std::vector<std::string> conditions_of_plan(const Model& model, const Pass& pass) {
   std::vector<std::string> names;
   for (uint32_t bit = 0; bit < 64; ++bit)
-    if (pass.guard >> bit & 1) names.emplace_back(bit < model.input->plan.conditions.size() ? model.input->plan.conditions[bit] : std::string_view("?"));
+    if (pass.guard >> bit & 1)
+      names.emplace_back(bit < model.input->plan.conditions.size() ? model.input->plan.conditions[bit] : std::string_view("?"));
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -188,7 +200,8 @@ Limits limits_of_program(const dsl::Pass& pass) {
 void check_guards(const Usage& usage, const PassNode& node) {
   const Pass& plan = usage.model.input->plan.passes[node.plan_pass];
   const dsl::Pass& program = usage.model.pass(node.plan_pass);
-  const bool same = conditions_of_plan(usage.model, plan) == conditions_of_program(usage.model, program) && limits_of_plan(usage.model, plan) == limits_of_program(program);
+  const bool same = conditions_of_plan(usage.model, plan) == conditions_of_program(usage.model, program) &&
+                    limits_of_plan(usage.model, plan) == limits_of_program(program);
   if (!same) usage.report.add({Hazard::invalid_plan, "", program.name, "", "`" + program.name + "` runs under other conditions than declared"});
 }
 
@@ -204,7 +217,8 @@ void check_feedback(const Usage& usage, const PassNode& node) {
       if (both.empty()) continue;
       const std::string pass = usage.model.pass_name(node.plan_pass);
       usage.report.add({Hazard::read_after_write, usage.model.resource(a.resource).name, pass, pass,
-                        "`" + pass + "` uses " + usage.model.place(a.resource, both.front()) + " as an attachment it writes and in a second role at once: a feedback loop"});
+                        "`" + pass + "` uses " + usage.model.place(a.resource, both.front()) +
+                            " as an attachment it writes and in a second role at once: a feedback loop"});
     }
 }
 
@@ -217,7 +231,8 @@ void check_declared_order(const Model& model, Report& report) {
     if (position[p] == kNone) continue;
     for (const dsl::PassId after : pass.after)
       if (position[after.value] != kNone && position[after.value] > position[p])
-        report.add({Hazard::order, "", model.input->graph.passes[after].name, pass.name, "`" + pass.name + "` runs before `" + model.input->graph.passes[after].name + "`, which it is declared to follow"});
+        report.add({Hazard::order, "", model.input->graph.passes[after].name, pass.name,
+                    "`" + pass.name + "` runs before `" + model.input->graph.passes[after].name + "`, which it is declared to follow"});
   }
 }
 
@@ -230,7 +245,8 @@ void check_kept(const Model& model, Report& report) {
       const uint32_t value = term.feature.value < model.input->configuration.size() ? model.input->configuration[term.feature.value] : 0;
       return (value == term.value) != term.negated;
     });
-    if (pass.keep && selected && !planned[p]) report.add({Hazard::missing_pass, "", pass.name, "", "`" + pass.name + "` is declared `keep` but is not planned"});
+    if (pass.keep && selected && !planned[p])
+      report.add({Hazard::missing_pass, "", pass.name, "", "`" + pass.name + "` is declared `keep` but is not planned"});
   }
 }
 

@@ -58,21 +58,25 @@ std::string what_is_missing(const WriteRecord& write, uint32_t stage, uint32_t a
   return "no barrier makes it visible to " + stage_name(stage) + " " + access_name(access);
 }
 
-struct Point { uint32_t pass, resource, cell; };  // where an access happens
+struct Point {
+  uint32_t pass, resource, cell;
+};  // where an access happens
 
 void report_write(Replay& replay, const Point& at, const WriteRecord& write, uint32_t stage, uint32_t access) {
   const bool writes = kAllWrites & access_bit(access);
   const std::string second = replay.model.pass_name(at.pass);
-  replay.report.add({writes ? Hazard::write_after_write : Hazard::read_after_write, replay.model.resource(at.resource).name, pass_or_empty(replay, write.pass), second,
-                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") " + (writes ? "writes " : "reads ") + replay.model.place(at.resource, at.cell) +
-                         " after " + who(replay, write) + ": " + what_is_missing(write, stage, access)});
+  replay.report.add({writes ? Hazard::write_after_write : Hazard::read_after_write, replay.model.resource(at.resource).name,
+                     pass_or_empty(replay, write.pass), second,
+                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") " + (writes ? "writes " : "reads ") +
+                         replay.model.place(at.resource, at.cell) + " after " + who(replay, write) + ": " + what_is_missing(write, stage, access)});
 }
 
 void report_read(Replay& replay, const Point& at, const ReadRecord& read, uint32_t stage, uint32_t access) {
   const std::string second = replay.model.pass_name(at.pass);
   replay.report.add({Hazard::write_after_read, replay.model.resource(at.resource).name, pass_or_empty(replay, read.pass), second,
-                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") overwrites " + replay.model.place(at.resource, at.cell) + " read by " +
-                         who(replay, read) + ": no barrier orders " + stage_name(stage) + " after the read"});
+                     "`" + second + "` (" + stage_name(stage) + " " + access_name(access) + ") overwrites " +
+                         replay.model.place(at.resource, at.cell) + " read by " + who(replay, read) + ": no barrier orders " + stage_name(stage) +
+                         " after the read"});
 }
 
 // ---- one access -------------------------------------------------------------------------------------------------
@@ -127,7 +131,8 @@ void check_layout(Replay& replay, const Point& at, const CellState& state, Layou
   if (state.layout == wanted) return;
   const std::string pass = replay.model.pass_name(at.pass);
   replay.report.add({Hazard::wrong_layout, replay.model.resource(at.resource).name, "", pass,
-                     "`" + pass + "` uses " + replay.model.place(at.resource, at.cell) + " in layout " + layout_name(wanted) + ", but it is in " + layout_name(state.layout)});
+                     "`" + pass + "` uses " + replay.model.place(at.resource, at.cell) + " in layout " + layout_name(wanted) + ", but it is in " +
+                         layout_name(state.layout)});
 }
 
 // All touches of one pass on one cell: what is checked against the state before, and recorded together.
@@ -210,10 +215,11 @@ void run_pass(Replay& replay, uint32_t index) {
 
 // ---- barriers ---------------------------------------------------------------------------------------------------
 
-void report_transition(Replay& replay, const Scope& scope, uint32_t cell, Hazard hazard, const std::string& before, const std::string& pass, const std::string& missing) {
+void report_transition(Replay& replay, const Scope& scope, uint32_t cell, Hazard hazard, const std::string& before, const std::string& pass,
+                       const std::string& missing) {
   replay.report.add({hazard, replay.model.resource(scope.resource).name, pass, "",
-                     "image barrier " + std::to_string(scope.index) + " moves " + replay.model.place(scope.resource, cell) + " from " + layout_name(scope.old_layout) + " to " +
-                         layout_name(scope.new_layout) + " after " + before + ": " + missing});
+                     "image barrier " + std::to_string(scope.index) + " moves " + replay.model.place(scope.resource, cell) + " from " +
+                         layout_name(scope.old_layout) + " to " + layout_name(scope.new_layout) + " after " + before + ": " + missing});
 }
 
 void check_transition(Replay& replay, const Scope& scope, uint32_t id, uint32_t cell, const CellState& state) {
@@ -222,7 +228,8 @@ void check_transition(Replay& replay, const Scope& scope, uint32_t id, uint32_t 
     if (in_source(scope, id, read, proof))
       replay.require(proof);
     else
-      report_transition(replay, scope, cell, Hazard::write_after_read, "a read by " + who(replay, read), pass_or_empty(replay, read.pass), "its source stages do not wait for it");
+      report_transition(replay, scope, cell, Hazard::write_after_read, "a read by " + who(replay, read), pass_or_empty(replay, read.pass),
+                        "its source stages do not wait for it");
   }
   for (const WriteRecord& write : state.writes) {
     if (in_source(scope, id, write, proof))
@@ -239,8 +246,8 @@ void check_old_layout(Replay& replay, const Scope& scope, uint32_t cell, const C
   if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
   if (layout_of_aspect(scope.old_layout, aspect) == state.layout) return;
   replay.report.add({Hazard::wrong_layout, replay.model.resource(scope.resource).name, "", "",
-                     "image barrier " + std::to_string(scope.index) + " expects " + replay.model.place(scope.resource, cell) + " in " + layout_name(scope.old_layout) +
-                         ", but it is in " + layout_name(state.layout)});
+                     "image barrier " + std::to_string(scope.index) + " expects " + replay.model.place(scope.resource, cell) + " in " +
+                         layout_name(scope.old_layout) + ", but it is in " + layout_name(state.layout)});
 }
 
 bool is_transition(const Scope& scope) { return scope.kind == ScopeKind::image && scope.old_layout != scope.new_layout; }
@@ -284,7 +291,10 @@ void hand_over(Replay& replay, const Acquire& acquire) {
 
 void run_group(Replay& replay, uint32_t index) {
   const GroupNode& group = replay.model.groups[index];
-  struct Local { uint32_t cell = 0; std::vector<uint32_t> scopes; };
+  struct Local {
+    uint32_t cell = 0;
+    std::vector<uint32_t> scopes;
+  };
   std::map<uint32_t, Local> covered;
   for (const uint32_t id : group.scopes) {
     const Scope& scope = replay.model.scopes[id];
@@ -325,8 +335,9 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
     if (write.visible[kHost] & access_bit(kHostRead))
       replay.require(*proof_of_visible(write, kHost, kHostRead));
     else
-      replay.report.add({Hazard::read_after_write, replay.model.resource(r).name, pass_or_empty(replay, write.pass), "",
-                         "the host reads " + replay.model.place(r, c) + " after " + who(replay, write) + ": no barrier makes the write visible to host host_read"});
+      replay.report.add(
+          {Hazard::read_after_write, replay.model.resource(r).name, pass_or_empty(replay, write.pass), "",
+           "the host reads " + replay.model.place(r, c) + " after " + who(replay, write) + ": no barrier makes the write visible to host host_read"});
   }
 }
 
@@ -361,8 +372,9 @@ void check_exit_cell(Replay& replay, uint32_t r, uint32_t age, uint32_t c, const
   if (why.empty()) return;
   std::string last = "the state before the frame";
   if (!state.writes.empty()) last = who(replay, state.writes.front());
-  replay.report.add({Hazard::boundary_mismatch, replay.model.resource(r).name, "", "", "at the end of the frame " + replay.model.place(r, c) + " (last written by " + last +
-                     (age ? ", age " + std::to_string(age) : "") + ") is not within the exit state: " + why});
+  replay.report.add({Hazard::boundary_mismatch, replay.model.resource(r).name, "", "",
+                     "at the end of the frame " + replay.model.place(r, c) + " (last written by " + last +
+                         (age ? ", age " + std::to_string(age) : "") + ") is not within the exit state: " + why});
 }
 
 void check_after_state(Replay& replay, uint32_t r, uint32_t c) {
@@ -377,9 +389,11 @@ void check_after_state(Replay& replay, uint32_t r, uint32_t c) {
       for (uint32_t a = 0; a < kAccessCount; ++a)
         if (wanted.accesses[s] & access_bit(a)) replay.require(*proof_of_visible(write, s, a));
   if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
-  if (partition.shape.image && state.layout != wanted.layout && state.layout != Layout::undefined) why = "layout is " + layout_name(state.layout) + ", not " + layout_name(wanted.layout);
+  if (partition.shape.image && state.layout != wanted.layout && state.layout != Layout::undefined)
+    why = "layout is " + layout_name(state.layout) + ", not " + layout_name(wanted.layout);
   if (!why.empty())
-    replay.report.add({Hazard::boundary_mismatch, resource.name, "", "", replay.model.place(r, c) + " is not handed back in the declared `after` state: " + why});
+    replay.report.add(
+        {Hazard::boundary_mismatch, resource.name, "", "", replay.model.place(r, c) + " is not handed back in the declared `after` state: " + why});
 }
 
 void leave(Replay& replay, const std::vector<Pending>& exit) {

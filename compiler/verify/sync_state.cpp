@@ -53,8 +53,14 @@ void add_chained_sources(const Scope& scope, uint32_t scope_id, const Reach& rea
 }
 
 // A derivation waiting to be merged once all barriers of a group have seen the state before the group.
-struct NewReach { uint32_t stage; Proof proof; };
-struct NewVisible { uint32_t stage, access; Proof proof; };
+struct NewReach {
+  uint32_t stage;
+  Proof proof;
+};
+struct NewVisible {
+  uint32_t stage, access;
+  Proof proof;
+};
 
 void add_reach(const Scope& scope, uint32_t scope_id, const Proof& source, StageSet settled, std::vector<NewReach>& result) {
   const Proof base = unite(source, Proof{atom_of(scope_id, AtomField::whole)});
@@ -85,7 +91,8 @@ void merge(Reach& reach, const NewReach& next) {
 
 void merge(WriteRecord& write, const NewVisible& next) {
   const AccessSet bit = access_bit(next.access);
-  const auto at = std::find_if(write.proofs.begin(), write.proofs.end(), [&](const VisibleTo& v) { return v.stage == next.stage && v.access == next.access; });
+  const auto at =
+      std::find_if(write.proofs.begin(), write.proofs.end(), [&](const VisibleTo& v) { return v.stage == next.stage && v.access == next.access; });
   if (!(write.visible[next.stage] & bit)) {
     write.visible[next.stage] |= bit;
     if (!next.proof.empty()) write.proofs.push_back({next.stage, next.access, next.proof});
@@ -162,8 +169,7 @@ bool is_local(const std::vector<uint32_t>& local, uint32_t scope) { return std::
 
 void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
   Updates updates;
-  for (const uint32_t id : group.scopes)
-    see(history, id, write, history.model.scopes[id].kind == ScopeKind::memory || is_local(local, id), updates);
+  for (const uint32_t id : group.scopes) see(history, id, write, history.model.scopes[id].kind == ScopeKind::memory || is_local(local, id), updates);
   commit(history, updates, write);
 }
 

@@ -29,8 +29,8 @@ constexpr Atom atom_of(uint32_t scope, AtomField field, uint32_t bit = 0) { retu
 // Stages ordered after something.
 struct Reach {
   StageSet stages = 0;
-  StageSet settled = 0;                                   // no single atom is needed any more
-  std::vector<std::pair<uint32_t, Proof>> proofs;         // of stages that are not settled
+  StageSet settled = 0;                            // no single atom is needed any more
+  std::vector<std::pair<uint32_t, Proof>> proofs;  // of stages that are not settled
 };
 
 struct ReadRecord {
@@ -40,16 +40,19 @@ struct ReadRecord {
   Reach reach;
 };
 
-struct VisibleTo { uint32_t stage = 0, access = 0; Proof proof; };
+struct VisibleTo {
+  uint32_t stage = 0, access = 0;
+  Proof proof;
+};
 struct WriteRecord {
   uint32_t stage = kStageCount, access = kAccessCount;  // kStageCount: a layout transition, or settled before the frame
   uint32_t pass = 0;
-  uint32_t scope = kNone;     // of a layout transition
-  uint64_t order = 0;         // commuting writers, and passes of one rendering, share a number and do not wait for each other
+  uint32_t scope = kNone;  // of a layout transition
+  uint64_t order = 0;      // commuting writers, and passes of one rendering, share a number and do not wait for each other
   uint32_t seen = 0;
   bool available = false;
   bool read_since = false;
-  Reach reach;                // from where it became available
+  Reach reach;  // from where it became available
   AccessSet visible[kStageCount] = {};
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
 };

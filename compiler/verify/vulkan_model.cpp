@@ -6,7 +6,12 @@
 namespace rg::verify {
 namespace {
 
-struct StageRow { const char* name; Stages raw; StageSet earlier; AccessSet accesses; };
+struct StageRow {
+  const char* name;
+  Stages raw;
+  StageSet earlier;
+  AccessSet accesses;
+};
 
 constexpr AccessSet kShaderAccess = access_bit(kUniformRead) | access_bit(kSampledRead) | access_bit(kStorageRead) | access_bit(kStorageWrite);
 constexpr AccessSet kTransferAccess = access_bit(kTransferRead) | access_bit(kTransferWrite);
@@ -34,7 +39,10 @@ constexpr std::array<StageRow, kStageCount> kStageRows = {{
     {"host", stage::host, stage_bit(kHost), access_bit(kHostRead) | access_bit(kHostWrite)},
 }};
 
-struct AccessRow { const char* name; Accesses raw; };
+struct AccessRow {
+  const char* name;
+  Accesses raw;
+};
 constexpr std::array<AccessRow, kAccessCount> kAccessRows = {{
     {"indirect_command_read", access::indirect_command_read},
     {"index_read", access::index_read},
@@ -55,11 +63,18 @@ constexpr std::array<AccessRow, kAccessCount> kAccessRows = {{
 }};
 
 // Masks that stand for several stages or accesses.
-struct StageAlias { Stages raw; StageSet meaning; };
+struct StageAlias {
+  Stages raw;
+  StageSet meaning;
+};
 constexpr StageSet kTransferStages = stage_bit(kCopy) | stage_bit(kResolve) | stage_bit(kBlit) | stage_bit(kClear);
-constexpr StageAlias kStageAliases[] = {
-    {stage::all_transfer, kTransferStages}, {stage::all_graphics, graphics_until(kColorOutput)}, {stage::all_commands, kAllStages & ~stage_bit(kHost)}};
-struct AccessAlias { Accesses raw; AccessSet meaning; };
+constexpr StageAlias kStageAliases[] = {{stage::all_transfer, kTransferStages},
+                                        {stage::all_graphics, graphics_until(kColorOutput)},
+                                        {stage::all_commands, kAllStages & ~stage_bit(kHost)}};
+struct AccessAlias {
+  Accesses raw;
+  AccessSet meaning;
+};
 constexpr AccessAlias kAccessAliases[] = {{access::shader_read, access_bit(kSampledRead) | access_bit(kStorageRead)},
                                           {access::shader_write, access_bit(kStorageWrite)},
                                           {access::memory_read, kAllReads},
@@ -144,29 +159,41 @@ Layout layout_of_aspect(Layout layout, uint32_t aspect) {
   const Layout attachment = depth ? Layout::depth_attachment : Layout::stencil_attachment;
   const Layout read_only = depth ? Layout::depth_read_only : Layout::stencil_read_only;
   switch (layout) {
-    case Layout::depth_stencil_attachment: return attachment;
-    case Layout::depth_stencil_read_only: return read_only;
-    case Layout::depth_read_only_stencil_attachment: return depth ? read_only : attachment;
-    case Layout::depth_attachment_stencil_read_only: return depth ? attachment : read_only;
-    default: return layout;
+    case Layout::depth_stencil_attachment:
+      return attachment;
+    case Layout::depth_stencil_read_only:
+      return read_only;
+    case Layout::depth_read_only_stencil_attachment:
+      return depth ? read_only : attachment;
+    case Layout::depth_attachment_stencil_read_only:
+      return depth ? attachment : read_only;
+    default:
+      return layout;
   }
 }
 
 uint32_t usage_for(Layout layout) {
   switch (layout) {
-    case Layout::color_attachment: return kUsageColor;
+    case Layout::color_attachment:
+      return kUsageColor;
     case Layout::depth_stencil_attachment:
     case Layout::depth_read_only_stencil_attachment:
     case Layout::depth_attachment_stencil_read_only:
     case Layout::depth_attachment:
-    case Layout::stencil_attachment: return kUsageDepthStencil;
+    case Layout::stencil_attachment:
+      return kUsageDepthStencil;
     case Layout::depth_stencil_read_only:
     case Layout::depth_read_only:
-    case Layout::stencil_read_only: return kUsageDepthStencil | kUsageSampled | kUsageInput;
-    case Layout::shader_read_only: return kUsageSampled | kUsageInput;
-    case Layout::transfer_src: return kUsageTransferSrc;
-    case Layout::transfer_dst: return kUsageTransferDst;
-    default: return 0;
+    case Layout::stencil_read_only:
+      return kUsageDepthStencil | kUsageSampled | kUsageInput;
+    case Layout::shader_read_only:
+      return kUsageSampled | kUsageInput;
+    case Layout::transfer_src:
+      return kUsageTransferSrc;
+    case Layout::transfer_dst:
+      return kUsageTransferDst;
+    default:
+      return 0;
   }
 }
 
@@ -175,21 +202,36 @@ std::string access_name(uint32_t access) { return access < kAccessCount ? kAcces
 
 std::string layout_name(Layout layout) {
   switch (layout) {
-    case Layout::undefined: return "undefined";
-    case Layout::general: return "general";
-    case Layout::color_attachment: return "color_attachment";
-    case Layout::depth_stencil_attachment: return "depth_stencil_attachment";
-    case Layout::depth_stencil_read_only: return "depth_stencil_read_only";
-    case Layout::shader_read_only: return "shader_read_only";
-    case Layout::transfer_src: return "transfer_src";
-    case Layout::transfer_dst: return "transfer_dst";
-    case Layout::depth_read_only_stencil_attachment: return "depth_read_only_stencil_attachment";
-    case Layout::depth_attachment_stencil_read_only: return "depth_attachment_stencil_read_only";
-    case Layout::depth_attachment: return "depth_attachment";
-    case Layout::depth_read_only: return "depth_read_only";
-    case Layout::stencil_attachment: return "stencil_attachment";
-    case Layout::stencil_read_only: return "stencil_read_only";
-    case Layout::present_src: return "present_src";
+    case Layout::undefined:
+      return "undefined";
+    case Layout::general:
+      return "general";
+    case Layout::color_attachment:
+      return "color_attachment";
+    case Layout::depth_stencil_attachment:
+      return "depth_stencil_attachment";
+    case Layout::depth_stencil_read_only:
+      return "depth_stencil_read_only";
+    case Layout::shader_read_only:
+      return "shader_read_only";
+    case Layout::transfer_src:
+      return "transfer_src";
+    case Layout::transfer_dst:
+      return "transfer_dst";
+    case Layout::depth_read_only_stencil_attachment:
+      return "depth_read_only_stencil_attachment";
+    case Layout::depth_attachment_stencil_read_only:
+      return "depth_attachment_stencil_read_only";
+    case Layout::depth_attachment:
+      return "depth_attachment";
+    case Layout::depth_read_only:
+      return "depth_read_only";
+    case Layout::stencil_attachment:
+      return "stencil_attachment";
+    case Layout::stencil_read_only:
+      return "stencil_read_only";
+    case Layout::present_src:
+      return "present_src";
   }
   return "layout " + std::to_string(static_cast<uint32_t>(layout));
 }

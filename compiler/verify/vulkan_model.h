@@ -13,12 +13,43 @@ namespace rg::verify {
 
 // One bit a stage that does work of its own; masks such as all_transfer stand for several.
 enum StageIndex : uint32_t {
-  kDrawIndirect, kIndexInput, kVertexAttributeInput, kVertexShader, kTessControlShader, kTessEvalShader, kGeometryShader, kEarlyTests, kFragmentShader,
-  kLateTests, kColorOutput, kComputeShader, kCopy, kResolve, kBlit, kClear, kHost, kStageCount,
+  kDrawIndirect,
+  kIndexInput,
+  kVertexAttributeInput,
+  kVertexShader,
+  kTessControlShader,
+  kTessEvalShader,
+  kGeometryShader,
+  kEarlyTests,
+  kFragmentShader,
+  kLateTests,
+  kColorOutput,
+  kComputeShader,
+  kCopy,
+  kResolve,
+  kBlit,
+  kClear,
+  kHost,
+  kStageCount,
 };
 enum AccessIndex : uint32_t {
-  kIndirectRead, kIndexRead, kVertexAttributeRead, kUniformRead, kInputAttachmentRead, kSampledRead, kStorageRead, kColorRead, kDepthStencilRead,
-  kTransferRead, kHostRead, kStorageWrite, kColorWrite, kDepthStencilWrite, kTransferWrite, kHostWrite, kAccessCount,
+  kIndirectRead,
+  kIndexRead,
+  kVertexAttributeRead,
+  kUniformRead,
+  kInputAttachmentRead,
+  kSampledRead,
+  kStorageRead,
+  kColorRead,
+  kDepthStencilRead,
+  kTransferRead,
+  kHostRead,
+  kStorageWrite,
+  kColorWrite,
+  kDepthStencilWrite,
+  kTransferWrite,
+  kHostWrite,
+  kAccessCount,
 };
 using StageSet = uint32_t;
 using AccessSet = uint32_t;
@@ -26,7 +57,8 @@ using AccessSet = uint32_t;
 constexpr StageSet stage_bit(uint32_t stage) { return 1u << stage; }
 constexpr AccessSet access_bit(uint32_t access) { return 1u << access; }
 constexpr StageSet kAllStages = (1u << kStageCount) - 1;
-constexpr AccessSet kAllWrites = access_bit(kStorageWrite) | access_bit(kColorWrite) | access_bit(kDepthStencilWrite) | access_bit(kTransferWrite) | access_bit(kHostWrite);
+constexpr AccessSet kAllWrites =
+    access_bit(kStorageWrite) | access_bit(kColorWrite) | access_bit(kDepthStencilWrite) | access_bit(kTransferWrite) | access_bit(kHostWrite);
 constexpr AccessSet kAllReads = ((1u << kAccessCount) - 1) & ~kAllWrites;
 
 // What a raw mask of the plan covers.
