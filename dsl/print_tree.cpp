@@ -1,0 +1,230 @@
+// Trees as nested lists: `(pass luminance (compute) (read (name hdr) (as sampled)))`.
+#include <fmt/format.h>
+
+#include "dsl/print.h"
+
+namespace rg::dsl {
+namespace {
+
+using namespace ast;
+
+struct Printer {
+  std::string out;
+  size_t depth = 0;
+
+  void line(const std::string& text) { out += std::string(2 * depth, ' ') + text + "\n"; }
+};
+
+std::string text(const Name& name) { return name.empty() ? "?" : std::string(name.text); }
+
+std::string text(const ast::Expr& expr) {
+  constexpr const char* kOperators[] = {"error", "", "", "", "", "", "index", "call", "list", "-", "+", "-", "*", "/"};
+  if (expr.kind == ExprKind::error) return "?";
+  const bool leaf = expr.kind == ExprKind::integer || expr.kind == ExprKind::real || expr.kind == ExprKind::dimensions || expr.kind == ExprKind::name;
+  if (leaf) return std::string(expr.text);
+  if (expr.kind == ExprKind::member) return text(expr.operands[0]) + "." + std::string(expr.text);
+  std::string out = std::string("(") + kOperators[static_cast<size_t>(expr.kind)];
+  for (const ast::Expr& operand : expr.operands) out += " " + text(operand);
+  return out + ")";
+}
+
+std::string text(const std::optional<ast::Expr>& expr) { return expr ? " " + text(*expr) : ""; }
+
+std::string text(const TypeName& type) {
+  std::string out = text(type.name);
+  if (type.unsized) return out + "[]";
+  return type.count ? out + "[" + text(*type.count) + "]" : out;
+}
+
+std::string text(const Usage& usage) {
+  std::string out = " as " + text(usage.role);
+  if (usage.sampler) out += "(" + text(*usage.sampler) + ")";
+  for (const Name& stage : usage.stages) out += " in " + text(stage);
+  return out;
+}
+
+std::string text(const Setting& setting) {
+  std::string out = " (" + text(setting.word);
+  if (!setting.second.empty()) out += " " + text(setting.second);
+  for (const Name& name : setting.names) out += " " + text(name);
+  for (const ast::Expr& value : setting.values) out += " " + text(value);
+  return out + ")";
+}
+
+std::string settings_text(const std::vector<Setting>& settings) {
+  std::string out;
+  for (const Setting& setting : settings) out += text(setting);
+  return out;
+}
+
+std::string resource_text(const ResourceDeclaration& node) {
+  std::string out = node.is_buffer ? "buffer " : "image ";
+  out += text(node.name) + (node.index ? "[" + text(*node.index) + "]" : "") + " : ";
+  out += node.is_buffer ? text(node.element) : text(node.format) + text(node.size);
+  out += settings_text(node.settings);
+  if (node.has_init) out += " (init" + text(node.clear) + ")";
+  if (node.ready) out += std::string(node.wrote ? " (written" : " (ready") + text(*node.ready) + ")";
+  if (node.after) out += " (after" + text(*node.after) + ")";
+  return out + (node.has_error ? " !" : "");
+}
+
+std::string access_text(const AccessStatement& node) {
+  constexpr const char* kVerbs[] = {"read", "write", "update", "atomic", "color", "depth", "stencil"};
+  std::string out = kVerbs[static_cast<size_t>(node.verb)];
+  if (!node.rename.empty()) out += " " + text(node.rename) + " =";
+  out += " " + text(node.target);
+  if (node.usage) out += text(*node.usage);
+  if (node.clear) out += " clear" + text(node.clear);
+  if (node.blend) {
+    out += " blend " + text(node.blend->op);
+    for (const Name& factor : node.blend->factors) out += " " + text(factor);
+  }
+  for (const auto& [set, option] : {std::pair{node.covers, " covers"}, {node.disjoint, " disjoint"}, {node.readonly, " readonly"}})
+    if (set) out += option;
+  return out;
+}
+
+void visit(Printer& at, const AccessStatement& node) { at.line(access_text(node)); }
+
+void visit(Printer& at, const ShaderStatement& node) {
+  std::string out = node.fullscreen ? "fullscreen" : "shader";
+  for (const auto& path : node.paths) out += " \"" + std::string(path.text) + "\"";
+  for (const ast::Expr& size : node.group) out += " " + text(size);
+  at.line(out);
+}
+
+void visit(Printer& at, const DispatchStatement& node) { at.line("dispatch " + text(node.how) + text(node.size)); }
+
+void visit(Printer& at, const DrawStatement& node) {
+  std::string out = node.host ? "draw host" : node.indexed ? "draw indexed indirect" : node.indirect ? "draw indirect" : "draw";
+  out += text(node.vertices) + text(node.arguments);
+  if (node.instances) out += " instances" + text(node.instances);
+  if (node.max_draws) out += " max" + text(node.max_draws);
+  if (node.counts) out += " count" + text(node.counts);
+  if (node.per_draw) out += " per_draw " + (node.per_draw->type ? text(*node.per_draw->type) : text(node.per_draw->name));
+  for (const ast::Expr& vertex : node.vertex) out += " vertex " + text(vertex);
+  at.line(out);
+}
+
+void visit(Printer& at, const TransferStatement& node) {
+  at.line(text(node.verb) + text(node.src) + (node.src ? " ->" : "") + text(node.dst) + text(node.value) + (node.linear ? " linear" : ""));
+}
+
+void visit(Printer& at, const HostTransfer& node) {
+  at.line("host");
+  ++at.depth;
+  for (const AccessStatement& access : node.accesses) visit(at, access);
+  --at.depth;
+}
+
+void visit(Printer& at, const ParamsStatement& node) { at.line("params " + text(node.name) + (node.type ? ":" + text(node.type) : "")); }
+void visit(Printer& at, const WordStatement& node) { at.line(text(node.word) + text(node.value)); }
+
+void print_items(Printer& at, const std::vector<Item>& items);
+
+void visit(Printer& at, const ResourceDeclaration& node) { at.line(resource_text(node)); }
+
+void visit(Printer& at, const PassDeclaration& node) {
+  std::string out = "pass " + text(node.name) + (node.index ? "[" + text(*node.index) + "]" : "") + " : " + text(node.kind);
+  if (!node.queue.empty()) out += " queue " + text(node.queue) + (node.queue_may ? " may" : "");
+  at.line(out + (node.has_error ? " !" : ""));
+  ++at.depth;
+  for (const Statement& statement : node.statements) std::visit([&](const auto& each) { visit(at, each); }, statement);
+  --at.depth;
+}
+
+void visit(Printer& at, const For& node) {
+  at.line("for " + text(node.variable) + " in " + text(node.first) + ".." + text(node.last));
+  print_items(at, node.body);
+}
+
+void visit(Printer& at, const When& node) {
+  at.line(std::string("when") + (node.negated ? " not " : " ") + text(node.feature) + (node.value.empty() ? "" : " == " + text(node.value)));
+  print_items(at, node.body);
+  if (node.otherwise.empty()) return;
+  at.line("else");
+  print_items(at, node.otherwise);
+}
+
+void visit(Printer& at, const IfHost& node) {
+  at.line("if host " + text(node.condition));
+  print_items(at, node.body);
+}
+
+void visit(Printer& at, const Use& node) {
+  std::string out = "use " + (node.instance.empty() ? "" : text(node.instance) + " = ") + text(node.technique);
+  for (const ast::Expr& argument : node.arguments) out += " " + text(argument);
+  at.line(out);
+}
+
+void visit(Printer& at, const ast::Assertion& node) { at.line(std::string(node.text)); }
+
+void print_items(Printer& at, const std::vector<Item>& items) {
+  ++at.depth;
+  for (const Item& item : items) std::visit([&](const auto& node) { visit(at, node); }, item.node);
+  --at.depth;
+}
+
+void visit(Printer& at, const Constant& node) { at.line("const " + text(node.name) + " = " + text(node.value)); }
+
+void visit(Printer& at, const ExtentDeclaration& node) {
+  std::string out = "extent " + text(node.name) + " (runtime";
+  for (const ast::Expr& axis : node.initial) out += " " + text(axis);
+  out += ") (max";
+  for (const ast::Expr& axis : node.maximum) out += " " + text(axis);
+  at.line(out + ")");
+}
+
+void visit(Printer& at, const StructDeclaration& node) {
+  at.line("struct " + text(node.name));
+  ++at.depth;
+  for (const FieldDeclaration& field : node.fields) at.line(text(field.name) + ": " + text(field.type));
+  --at.depth;
+}
+
+void visit(Printer& at, const InterfaceDeclaration& node) {
+  at.line("interface " + text(node.name));
+  ++at.depth;
+  for (const ResourceDeclaration& member : node.members) at.line(resource_text(member));
+  --at.depth;
+}
+
+void visit(Printer& at, const SamplerDeclaration& node) { at.line("sampler " + text(node.name) + settings_text(node.settings)); }
+void visit(Printer& at, const StateDeclaration& node) { at.line("state " + text(node.name) + settings_text(node.settings)); }
+
+void visit(Printer& at, const FeatureDeclaration& node) {
+  std::string out = "feature " + text(node.name) + ":" + (node.is_bool ? " bool" : "");
+  for (const Name& value : node.values) out += " " + text(value);
+  at.line(out);
+}
+
+void visit(Printer& at, const ConditionDeclaration& node) { at.line("condition " + text(node.name)); }
+void visit(Printer& at, const EngineSetDeclaration& node) { at.line(fmt::format("set {} {}", text(node.name), node.set)); }
+
+std::string parameter_text(const Parameter& node) {
+  constexpr const char* kKinds[] = {"params ", "surface ", "", "image ", "buffer ", "const "};
+  std::string out = (node.writable ? "inout " : "") + std::string(kKinds[static_cast<size_t>(node.kind)]);
+  if (node.kind == Parameter::Kind::surface) return out + resource_text(node.surface);
+  return out + text(node.name) + (node.type.kind == ExprKind::error ? "" : ": " + text(node.type));
+}
+
+void visit(Printer& at, const GraphDeclaration& node) {
+  at.line((node.is_technique ? "technique " : "graph ") + text(node.name) + (node.has_error ? " !" : ""));
+  ++at.depth;
+  for (const Parameter& parameter : node.parameters) at.line("parameter " + parameter_text(parameter));
+  --at.depth;
+  print_items(at, node.body);
+}
+
+}  // namespace
+
+std::string print_tree(const File& file) {
+  Printer at;
+  at.line("module " + text(file.module));
+  for (const Import& import : file.imports) at.line("import \"" + std::string(import.path) + "\"");
+  if (file.target) at.line(fmt::format("target {} {}", text(file.target->api), file.target->version));
+  for (const Declaration& declaration : file.declarations) std::visit([&](const auto& node) { visit(at, node); }, declaration);
+  return at.out;
+}
+
+}  // namespace rg::dsl
