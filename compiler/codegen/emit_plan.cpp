@@ -247,7 +247,7 @@ void Emitter::barriers() {
 void Emitter::boundaries() {
   const auto boundary = [&](const Boundary& b, size_t) {
     Row row;
-    row.nested("ref", ref(b.ref)).nested("range", range(b.range));
+    row.nested("ref", ref(b.ref)).nested("range", range(b.range)).nested("bytes", bytes(b.bytes));
     if (b.stages != 0) row.field("stages", stages_text(b.stages));
     if (b.accesses != 0) row.field("accesses", accesses_text(b.accesses));
     if (b.layout != Layout::undefined) row.field("layout", layout_text(b.layout));

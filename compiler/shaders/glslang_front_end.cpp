@@ -28,11 +28,13 @@ EShLanguage language(dsl::Stage stage) {
 
 class Includer : public glslang::TShader::Includer {
  public:
-  Includer(ShaderSources& sources, std::set<std::string>& names) : sources_(sources), names_(names) {}
+  Includer(ShaderSources& sources, const std::string& path, std::set<std::string>& names) : sources_(sources), path_(path), names_(names) {}
 
   IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
     if (depth > 32) return nullptr;
-    for (const std::string& folder : {folder_of(includer), std::string()}) {
+    // glslang calls every line of the first level by the name of the first string.
+    const std::string from = includer == kPreludeName ? path_ : includer;
+    for (const std::string& folder : {folder_of(from), std::string()}) {
       const auto path = resolve_path(folder, header);
       const std::string* found = path ? sources_.find(*path) : nullptr;
       if (found == nullptr) continue;
@@ -45,6 +47,7 @@ class Includer : public glslang::TShader::Includer {
 
  private:
   ShaderSources& sources_;
+  const std::string& path_;
   std::set<std::string>& names_;
 };
 
@@ -106,7 +109,7 @@ FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const 
   const int skipped = prelude.empty() ? 1 : 0;
   shader.setStringsWithLengthsAndNames(texts + skipped, lengths + skipped, labels + skipped, 2 - skipped);
   configure(shader, stage);
-  Includer includer(sources, names);
+  Includer includer(sources, path, names);
   FrontEndOutput output;
   if (!shader.parse(GetDefaultResources(), 460, false, messages, includer)) {
     output.errors = parse_log(shader.getInfoLog(), names);

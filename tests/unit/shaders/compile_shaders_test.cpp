@@ -49,6 +49,16 @@ TEST_F(CompileShaders, ErrorInAnIncludeIsAtItsLine) {
   EXPECT_EQ(bundle.read_files, (std::vector<std::string>{"lib/a.glsl", "lib/b.glsl", "work.comp"}));
 }
 
+TEST_F(CompileShaders, IncludesAreFoundBesideTheShaderFirst) {
+  compute(depth_to_hdr(), "").shaders[0].path = "deep/work.comp";
+  shaders = {{"deep/work.comp", "#include \"a.glsl\"\nvoid main() { imageStore(hdr, ivec2(0), texelFetch(depth, ivec2(0), 0) + beside); }\n"},
+             {"a.glsl", "const float at_root = 1.0;\n"},
+             {"deep/a.glsl", "const float beside = 1.0;\n"}};
+  const ShaderBundle bundle = compile();
+  EXPECT_EQ(report(), "");
+  EXPECT_EQ(bundle.read_files, (std::vector<std::string>{"deep/a.glsl", "deep/work.comp"}));
+}
+
 TEST_F(CompileShaders, IncludesNeverLeaveTheRoot) {
   compute(depth_to_hdr(), "#include \"../secret.glsl\"\nvoid main() {}\n");
   shaders["../secret.glsl"] = "int secret = 1;\n";
