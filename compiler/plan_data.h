@@ -33,6 +33,7 @@ struct PlanData {
   std::vector<Acquire> acquires;
   std::vector<Release> releases;
   std::vector<AliasPair> alias_pairs;
+  bool alias_by_lifetime = false;
   std::vector<Pass> passes;
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;

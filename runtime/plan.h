@@ -160,7 +160,8 @@ struct Release {
   Stages stages = 0; Accesses accesses = 0;  // accesses: writes only, not yet made available
 };
 // The bytes of `before` may be given to `after`: every last user of `before` precedes the acquire of `after` on the GPU, this frame, or
-// (`wraps`) the acquire of `after` in the next frame. Pairs not listed must not share bytes.
+// (`wraps`) the acquire of `after` in the next frame. Pairs not listed must not share bytes. Where Plan::alias_by_lifetime is set the list is empty, because it
+// would grow with the square: then any two transients share that are not `no_alias` and whose lives, counted in groups of the one queue, are disjoint.
 struct AliasPair { Index before = kNone, after = kNone; bool wraps = false; };
 
 // State of a range of a resource at the start and at the end of every frame. Established by the prologue at creation and resize.
@@ -355,6 +356,7 @@ struct Plan {
   std::span<const Acquire> acquires = {};
   std::span<const Release> releases = {};
   std::span<const AliasPair> alias_pairs = {};
+  bool alias_by_lifetime = false;
   std::span<const Pass> passes = {};             // in execution order of the single-queue serialisation
   std::span<const Access> accesses = {};
   std::span<const Rendering> renderings = {};

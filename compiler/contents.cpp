@@ -1,0 +1,48 @@
+#include "compiler/contents.h"
+
+#include <algorithm>
+
+namespace rg::compiler {
+namespace {
+
+size_t use_index(const Frame& frame, uint32_t pass, uint32_t cell) {
+  const auto first = frame.uses.begin() + frame.first_use[pass], last = frame.uses.begin() + frame.first_use[pass + 1];
+  return static_cast<size_t>(std::lower_bound(first, last, cell, [](const Use& use, uint32_t c) { return use.cell < c; }) - frame.uses.begin());
+}
+
+bool defined_at_entry(const dsl::Resource& resource) {
+  if (resource.lifetime == dsl::Lifetime::imported) return resource.before.role != dsl::Role::undefined;
+  return resource.lifetime == dsl::Lifetime::history || resource.lifetime == dsl::Lifetime::persistent;
+}
+
+// Whether what is there after the last epoch of the line is wanted.
+bool needed_at_exit(const dsl::Resource& resource, const Line& line) {
+  switch (resource.lifetime) {
+    case dsl::Lifetime::transient: return resource.is_output;
+    case dsl::Lifetime::imported:
+    case dsl::Lifetime::readback: return true;
+    default: return resource.is_output || line.epochs.front().needs;
+  }
+}
+
+}  // namespace
+
+ContentsOfUses find_contents(const Frame& frame, const std::vector<Line>& lines) {
+  ContentsOfUses result(frame.uses.size());
+  for (const Line& line : lines) {
+    const dsl::Resource& resource = frame.resource_of(line.cell);
+    const uint32_t stride = frame.grids[frame.cells[line.cell].resource].cells_per_age();
+    bool defined = defined_at_entry(resource);
+    for (size_t i = 0; i < line.epochs.size(); ++i) {
+      const Epoch& epoch = line.epochs[i];
+      const bool last = i + 1 == line.epochs.size();
+      const bool needed = epoch.events.size() > 1 || (last ? needed_at_exit(resource, line) : line.epochs[i + 1].needs);
+      for (size_t e = 0; e < epoch.events.size(); ++e)
+        result[use_index(frame, epoch.events[e].pass, line.cell + epoch.age * stride)] = {defined || (epoch.writes && e > 0), needed};
+      defined = defined || epoch.writes;
+    }
+  }
+  return result;
+}
+
+}  // namespace rg::compiler

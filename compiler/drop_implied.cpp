@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <bit>
+
+#include "compiler/synchronise.h"
+
+namespace rg::compiler {
+namespace {
+
+struct Scopes {  // of one barrier, completed: the first with logically earlier stages, the second with later ones
+  Stages first = 0, second = 0;
+  friend bool operator==(const Scopes&, const Scopes&) = default;
+};
+Scopes scopes_of(const CellBarrier& b) { return {with_earlier(b.src_stages), with_later(b.dst_stages)}; }
+
+// How execution scopes chain over the groups of a frame and on into the next: a stage is reached where its later commands come after the event.
+class Chains {
+ public:
+  explicit Chains(const SyncPlan& sync) : sync_(sync), distinct_(sync.groups.size()) {
+    for (uint32_t g = 0; g < sync.groups.size(); ++g) refresh(g);
+  }
+
+  // After barriers of the group were dropped or narrowed.
+  void refresh(uint32_t group) {
+    distinct_[group].clear();
+    for (const CellBarrier& b : sync_.groups[group]) {
+      const Scopes scopes = scopes_of(b);
+      if (std::find(distinct_[group].begin(), distinct_[group].end(), scopes) == distinct_[group].end()) distinct_[group].push_back(scopes);
+    }
+  }
+
+  // True if, once the groups before `end` have been recorded, all of `wanted` come after `stage` of a command in `segment` of this frame or the
+  // frame before.
+  bool reaches(Stages stage, uint32_t segment, bool wraps, uint32_t end, Stages wanted) const {
+    Stages reach = stage;
+    if (wraps) {
+      walk(segment + 1, static_cast<uint32_t>(distinct_.size()), wanted, reach);
+      walk(0, end, wanted, reach);
+    } else {
+      walk(segment + 1, end, wanted, reach);
+    }
+    return (reach & wanted) == wanted;
+  }
+
+ private:
+  void walk(uint32_t first, uint32_t end, Stages wanted, Stages& reach) const {
+    for (uint32_t g = first; g < end && (reach & wanted) != wanted; ++g) {
+      const Stages before = reach;  // barriers of one group do not chain
+      for (const Scopes& scopes : distinct_[g])
+        if (scopes.first & before) reach |= scopes.second;
+    }
+  }
+  const SyncPlan& sync_;
+  std::vector<std::vector<Scopes>> distinct_;  // by group
+};
+
+template <class Holds>
+bool for_all_events(const CellBarrier& b, Holds holds) {
+  return std::all_of(b.sources.begin(), b.sources.end(), [&](const Event& event) {
+    for (Stages rest = event.stages; rest; rest &= rest - 1)
+      if (!holds(rest & ~(rest - 1), event.segment)) return false;
+    return true;
+  });
+}
+
+// Barriers of one group do not chain, so groups before `index` only.
+bool reaches_any(const Chains& chains, const CellBarrier& b, Stages stage, uint32_t segment, uint32_t index, Stages any_of) {
+  if (stage & any_of) return true;
+  for (Stages rest = any_of; rest; rest &= rest - 1)
+    if (chains.reaches(stage, segment, b.wraps, index, rest & ~(rest - 1))) return true;
+  return false;
+}
+
+bool execution_only(const CellBarrier& b) { return b.src_accesses == 0 && b.dst_accesses == 0 && b.old_layout == b.new_layout; }
+
+// What the barrier orders is ordered by the groups before its own, or by another barrier of its group.
+bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index) {
+  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t segment) {
+    if (chains.reaches(stage, segment, b.wraps, index, b.dst_stages)) return true;
+    return std::any_of(group.begin(), group.end(), [&](const CellBarrier& other) {
+      const Scopes scopes = scopes_of(other);
+      return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, b, stage, segment, index, scopes.first);
+    });
+  });
+}
+
+// Everything the barrier waits for still reaches its first scope when `dropped` is taken out of it.
+bool reaches_without(const Chains& chains, const CellBarrier& b, uint32_t index, Stages dropped) {
+  const Stages rest = with_earlier(b.src_stages & ~dropped);
+  return !b.sources.empty() &&
+         for_all_events(b, [&](Stages stage, uint32_t segment) { return reaches_any(chains, b, stage, segment, index, rest); });
+}
+
+}  // namespace
+
+void drop_implied(SyncPlan& sync) {
+  Chains chains(sync);
+  for (uint32_t g = 0; g < sync.groups.size(); ++g) {
+    std::vector<CellBarrier>& group = sync.groups[g];
+    const size_t before = group.size();
+    for (size_t i = group.size(); i-- > 0;)
+      if (execution_only(group[i]) && is_implied(chains, group, group[i], g)) group.erase(group.begin() + static_cast<ptrdiff_t>(i));
+    if (group.size() != before) chains.refresh(g);
+    for (CellBarrier& b : group)
+      for (Stages bits = b.src_stages; bits; bits &= bits - 1) {
+        if (b.src_accesses != 0 || std::popcount(b.src_stages) < 2 || !reaches_without(chains, b, g, bits & ~(bits - 1))) continue;
+        b.src_stages &= ~(bits & ~(bits - 1));
+        chains.refresh(g);
+      }
+  }
+}
+
+}  // namespace rg::compiler

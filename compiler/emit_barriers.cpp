@@ -1,0 +1,90 @@
+#include <algorithm>
+
+#include "compiler/emit_plan.h"
+
+namespace rg::compiler {
+namespace {
+
+ImageBarrier image_row(const PlanParts& parts, const PlanIndices& indices, const CellBarrier& b) {
+  const Cell& cell = parts.frame.cells[b.cell];
+  ImageBarrier row;
+  row.image = {indices.resource[cell.resource], cell.age};
+  row.range = plan_range(parts.frame.graph->resources.rows[cell.resource], b.range);
+  row.src_stages = b.src_stages, row.src_accesses = b.src_accesses;
+  row.dst_stages = b.dst_stages, row.dst_accesses = b.dst_accesses;
+  row.old_layout = b.old_layout, row.new_layout = b.new_layout;
+  row.tag = b.tag;
+  return row;
+}
+
+Bytes bytes_between(uint64_t begin, uint64_t end, Expressions& exprs) {
+  Bytes bytes;
+  if (begin > 0) bytes.offset = exprs.constant(static_cast<int64_t>(begin));
+  if (end != UINT64_MAX) bytes.size = exprs.constant(static_cast<int64_t>(end - begin));
+  return bytes;
+}
+
+BufferBarrier buffer_row(const PlanParts& parts, const PlanIndices& indices, const CellBarrier& b, Expressions& exprs) {
+  const Cell& cell = parts.frame.cells[b.cell];
+  BufferBarrier row;
+  row.buffer = {indices.resource[cell.resource], cell.age};
+  row.bytes = bytes_between(b.begin, b.end, exprs);
+  row.src_stages = b.src_stages, row.src_accesses = b.src_accesses;
+  row.dst_stages = b.dst_stages, row.dst_accesses = b.dst_accesses;
+  row.tag = b.tag;
+  return row;
+}
+
+void emit_group(const PlanParts& parts, const PlanIndices& indices, const std::vector<CellBarrier>& barriers, std::vector<Acquire>& acquires,
+                Expressions& exprs, PlanData& plan) {
+  BarrierGroup group;
+  group.first_memory = static_cast<Index>(plan.memory_barriers.size());
+  group.first_image = static_cast<Index>(plan.image_barriers.size());
+  group.first_buffer = static_cast<Index>(plan.buffer_barriers.size());
+  for (const CellBarrier& b : barriers) {
+    const uint32_t resource = parts.frame.cells[b.cell].resource;
+    if (parts.frame.graph->resources.rows[resource].kind == dsl::ResourceKind::buffer) {
+      plan.buffer_barriers.push_back(buffer_row(parts, indices, b, exprs));
+      continue;
+    }
+    if (b.is_acquire) {
+      Acquire& acquire = *std::lower_bound(acquires.begin(), acquires.end(), resource, [](const Acquire& a, Index r) { return a.resource < r; });
+      if (acquire.image_barriers++ == 0) acquire.image_barrier = static_cast<Index>(plan.image_barriers.size());
+    }
+    plan.image_barriers.push_back(image_row(parts, indices, b));
+  }
+  group.image_count = static_cast<Index>(plan.image_barriers.size()) - group.first_image;
+  group.buffer_count = static_cast<Index>(plan.buffer_barriers.size()) - group.first_buffer;
+  plan.groups.push_back(group);
+}
+
+void emit_boundary(const PlanParts& parts, const PlanIndices& indices, const std::vector<CellBoundary>& from, Expressions& exprs,
+                   std::vector<Boundary>& to) {
+  for (const auto& [cell_index, state] : from) {
+    const Cell& cell = parts.frame.cells[cell_index];
+    const dsl::Resource& resource = parts.frame.graph->resources.rows[cell.resource];
+    Boundary row = state;
+    row.ref = {indices.resource[cell.resource], cell.age};
+    if (resource.kind == dsl::ResourceKind::image) row.range = plan_range(resource, cell.range);
+    if (resource.kind == dsl::ResourceKind::buffer) row.bytes = bytes_between(cell.begin, cell.end, exprs);
+    to.push_back(row);
+  }
+}
+
+}  // namespace
+
+void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
+  std::vector<Acquire> acquires = parts.sync.acquires;  // by program resource, ascending
+  for (const std::vector<CellBarrier>& group : parts.sync.groups) emit_group(parts, indices, group, acquires, exprs, plan);
+  for (Acquire& acquire : acquires) acquire.resource = indices.resource[acquire.resource];
+  plan.acquires = std::move(acquires);
+  plan.releases = parts.sync.releases;
+  for (Release& release : plan.releases) release.resource = indices.resource[release.resource];
+  plan.alias_pairs = parts.memory.alias_pairs;
+  plan.alias_by_lifetime = parts.memory.alias_by_lifetime;
+  for (AliasPair& pair : plan.alias_pairs) pair.before = indices.resource[pair.before], pair.after = indices.resource[pair.after];
+  emit_boundary(parts, indices, parts.sync.entry, exprs, plan.entry);
+  emit_boundary(parts, indices, parts.sync.exit, exprs, plan.exit);
+}
+
+}  // namespace rg::compiler

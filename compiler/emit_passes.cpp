@@ -1,0 +1,69 @@
+#include <algorithm>
+
+#include "compiler/emit_plan.h"
+#include "compiler/slots.h"
+
+namespace rg::compiler {
+namespace {
+
+Bytes plan_bytes(const dsl::Range& range) { return {index_of(range.offset), index_of(range.size)}; }
+
+Layout layout_in_pass(const Frame& frame, uint32_t pass, const dsl::Access& access) {
+  const std::vector<uint32_t> cells = cells_of(frame, access);
+  for (const Use& use : frame.uses_of(pass))
+    if (!cells.empty() && use.cell == cells.front()) return use.effect.layout;
+  return Layout::undefined;
+}
+
+Access access_row(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, const dsl::Access& access) {
+  const Frame& frame = parts.frame;
+  const dsl::Resource& resource = frame.graph->resources[access.resource];
+  const Range exact = resolved_range(resource, access);
+  const bool image = resource.kind == dsl::ResourceKind::image;
+  const Effect effect = effect_of(frame.pass(pass), access, image ? exact.aspects & (~exact.aspects + 1) : 0);
+  Access row;
+  row.ref = plan_ref(indices, access.resource, access.age);
+  if (image) row.range = plan_range(resource, exact), row.layout = layout_in_pass(frame, pass, access);
+  if (!image) row.range = {}, row.bytes = plan_bytes(access.range);
+  row.stages = effect.stages(), row.accesses = effect.reads | effect.writes;
+  row.writes = effect.writes != 0;
+  return row;
+}
+
+uint64_t guard_bits(const dsl::Pass& pass) {
+  uint64_t bits = 0;
+  for (const dsl::ConditionId condition : pass.conditions) bits |= uint64_t{1} << condition.value;
+  return bits;
+}
+
+Index engine_set_of(const dsl::Program& program, const std::string& bind) {
+  if (bind.empty()) return kNone;
+  const auto found = std::find_if(program.engine_sets.begin(), program.engine_sets.end(), [&](const dsl::EngineSet& set) { return set.name == bind; });
+  return found == program.engine_sets.end() ? kNone : static_cast<Index>(found - program.engine_sets.begin());
+}
+
+void emit_pass(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Index host_slot, Expressions& exprs, PlanData& plan) {
+  const dsl::Pass& from = parts.frame.pass(pass);
+  Pass row;
+  row.name = intern(from.name), row.module = intern(from.module);
+  row.kind = static_cast<PassKind>(from.kind);
+  row.guard = guard_bits(from);
+  row.first_access = static_cast<Index>(plan.accesses.size()), row.access_count = static_cast<Index>(from.accesses.size());
+  for (const dsl::Access& access : from.accesses) plan.accesses.push_back(access_row(parts, indices, pass, access));
+  row.engine_set = engine_set_of(*parts.frame.program, from.bind);
+  row.host_slot = host_slot;
+  row.first_mip_limit = static_cast<Index>(plan.mip_limits.size()), row.mip_limit_count = static_cast<Index>(from.mip_limits.size());
+  for (const dsl::MipLimit& limit : from.mip_limits) plan.mip_limits.push_back({indices.resource[limit.image.value], limit.mip});
+  emit_rendering(parts, indices, pass, exprs, plan, row);
+  emit_work(parts, indices, pass, exprs, plan, row);
+  plan.passes.push_back(row);
+}
+
+}  // namespace
+
+void emit_passes(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
+  const std::vector<Index> slots = host_slots(*parts.frame.graph);
+  for (const uint32_t pass : parts.schedule.order) emit_pass(parts, indices, pass, slots[parts.frame.passes[pass]], exprs, plan);
+}
+
+}  // namespace rg::compiler

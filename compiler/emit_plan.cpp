@@ -1,0 +1,98 @@
+#include "compiler/emit_plan.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "compiler/format_table.h"
+#include "compiler/slots.h"
+
+namespace rg::compiler {
+namespace {
+
+PlanIndices number_rows(const PlanParts& parts, PlanData& plan) {
+  const Frame& frame = parts.frame;
+  PlanIndices indices{std::vector<Index>(frame.graph->resources.size(), kNone), std::vector<Index>(frame.graph->passes.size(), kNone),
+                      first_update_slots(*frame.graph)};
+  std::vector<bool> used(frame.graph->resources.size());
+  for (const uint32_t pass : parts.schedule.order) {
+    indices.pass[frame.passes[pass]] = static_cast<Index>(plan.program_pass.size());
+    plan.program_pass.push_back(frame.passes[pass]);
+    for (const Use& use : frame.uses_of(pass)) used[frame.cells[use.cell].resource] = true;
+  }
+  for (uint32_t r = 0; r < used.size(); ++r) {
+    if (!used[r]) continue;
+    indices.resource[r] = static_cast<Index>(plan.program_resource.size());
+    plan.program_resource.push_back(r);
+  }
+  return indices;
+}
+
+void emit_program_tables(const PlanParts& parts, const PlanIndices& indices, PlanData& plan) {
+  const dsl::Program& program = *parts.frame.program;
+  for (const dsl::Extent& extent : program.extents) {
+    Extent row{intern(extent.name), extent.axes, {}, {}};
+    std::copy(extent.initial, extent.initial + 3, row.initial);
+    std::copy(extent.maximum, extent.maximum + 3, row.maximum);
+    plan.extents.push_back(row);
+  }
+  for (const dsl::Condition& condition : program.conditions) plan.conditions.push_back(intern(condition.name));
+  for (const dsl::EngineSet& set : program.engine_sets) plan.engine_sets.push_back({intern(set.name), static_cast<SetRole>(set.set)});
+  for (const dsl::Params& params : parts.frame.graph->params)
+    plan.params.push_back({intern(params.name), program.structs[params.type].size140, params.pass.valid() ? indices.pass[params.pass.value] : kNone});
+}
+
+void emit_culled(const PlanParts& parts, PlanData& plan) {
+  for (uint32_t pass = 0; pass < parts.frame.passes.size(); ++pass)
+    if (!parts.liveness.live[pass]) plan.culled.push_back({intern(parts.frame.pass(pass).name), intern(parts.liveness.reasons[pass])});
+}
+
+void emit_steps(const PlanParts& parts, PlanData& plan) {
+  size_t next = 0;
+  for (uint32_t segment = 0; segment < parts.schedule.segments; ++segment) {
+    plan.steps.push_back({StepKind::barriers, segment});
+    for (; next < parts.schedule.order.size() && parts.schedule.segment_of[parts.schedule.order[next]] == segment; ++next)
+      plan.steps.push_back({StepKind::pass, static_cast<Index>(next)});
+  }
+  plan.steps.push_back({StepKind::barriers, parts.schedule.segments});
+  plan.queues.push_back({QueueKind::graphics});
+  plan.batches.push_back({0, 0, static_cast<Index>(plan.steps.size()), 0, 0, 0, 0});
+}
+
+}  // namespace
+
+Range plan_range(const dsl::Resource& resource, const Range& exact) {
+  Range range = exact;
+  if (range.mip + range.mips == resource.mips) range.mips = kRemaining;
+  if (range.layer + range.layers == resource.layers) range.layers = kRemaining;
+  return range;
+}
+
+Ref plan_ref(const PlanIndices& indices, dsl::ResourceId resource, uint32_t age) { return {indices.resource[resource.value], age}; }
+
+ClearValue plan_clear(const dsl::ClearValue& value, uint32_t aspects) {
+  ClearValue clear;
+  if (aspects & (aspect_depth | aspect_stencil)) {
+    clear.word[0] = std::bit_cast<uint32_t>(value.f[0]), clear.word[1] = value.u[1];
+    return clear;
+  }
+  for (int i = 0; i < 4; ++i) clear.word[i] = value.integer ? value.u[i] : std::bit_cast<uint32_t>(value.f[i]);
+  return clear;
+}
+
+PlanData emit_plan(const PlanParts& parts) {
+  PlanData plan;
+  plan.name = intern(parts.frame.graph->name);
+  Expressions exprs(convert_expressions(*parts.frame.program));
+  const PlanIndices indices = number_rows(parts, plan);
+  emit_program_tables(parts, indices, plan);
+  emit_resources(parts, indices, exprs, plan);
+  emit_passes(parts, indices, exprs, plan);
+  emit_barriers(parts, indices, exprs, plan);
+  emit_steps(parts, plan);
+  emit_culled(parts, plan);
+  plan.estimated_heap_bytes = parts.memory.heap_bytes;
+  plan.exprs = exprs.take();
+  return plan;
+}
+
+}  // namespace rg::compiler

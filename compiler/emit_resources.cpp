@@ -1,0 +1,64 @@
+#include "compiler/emit_plan.h"
+#include "compiler/format_table.h"
+#include "compiler/slots.h"
+
+namespace rg::compiler {
+namespace {
+
+constexpr uint32_t kTransferTarget = 0x2;  // of images and of buffers
+
+// What live passes do with each resource, as usage flags.
+std::vector<uint32_t> find_usage(const PlanParts& parts) {
+  const Frame& frame = parts.frame;
+  std::vector<uint32_t> usage(frame.graph->resources.size());
+  for (const uint32_t pass : parts.schedule.order)
+    for (const dsl::Access& access : frame.pass(pass).accesses) {
+      const dsl::Resource& resource = frame.graph->resources[access.resource];
+      usage[access.resource.value] |= usage_of(frame.pass(pass), access.role, resource.kind, format_row(resource.format).aspects);
+    }
+  for (uint32_t r = 0; r < usage.size(); ++r)
+    if (frame.graph->resources.rows[r].init == dsl::InitKind::clear) usage[r] |= kTransferTarget;
+  return usage;
+}
+
+void set_image(const dsl::Resource& from, Resource& row) {
+  row.dimension = static_cast<Dimension>(from.dimension);
+  row.format = format_row(from.format).vulkan;
+  row.aspects = format_row(from.format).aspects;
+  row.width = index_of(from.width), row.height = index_of(from.height), row.depth = index_of(from.depth);
+  row.mips = from.mips, row.layers = from.layers, row.samples = from.samples;
+}
+
+Resource make_row(const PlanParts& parts, uint32_t program_index, Expressions& exprs) {
+  const dsl::Resource& from = parts.frame.graph->resources.rows[program_index];
+  Resource row;
+  row.name = intern(from.name);
+  row.kind = static_cast<ResourceKind>(from.kind);
+  row.lifetime = static_cast<rg::Lifetime>(from.lifetime);
+  if (from.kind == dsl::ResourceKind::image) set_image(from, row);
+  if (from.kind == dsl::ResourceKind::buffer) row.bytes = exprs.binary(ExprOp::mul, index_of(from.count), exprs.constant(from.stride)), row.stride = from.stride;
+  row.copies = parts.frame.grids[program_index].ages;
+  row.init = static_cast<InitKind>(from.init);
+  row.init_value = plan_clear(from.init_value, row.aspects);
+  row.is_surface = from.is_surface;
+  row.no_alias = from.no_alias;
+  row.estimated_bytes = parts.frame.bytes[program_index];
+  row.estimated_offset = parts.memory.offsets[program_index];
+  return row;
+}
+
+}  // namespace
+
+void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
+  const std::vector<uint32_t> usage = find_usage(parts);
+  const std::vector<Index> slots = import_slots(*parts.frame.graph);
+  for (uint32_t r = 0; r < indices.resource.size(); ++r) {
+    if (indices.resource[r] == kNone) continue;
+    Resource row = make_row(parts, r, exprs);
+    row.usage = usage[r];
+    row.import_slot = slots[r];
+    plan.resources.push_back(row);
+  }
+}
+
+}  // namespace rg::compiler

@@ -1,0 +1,78 @@
+#include "compiler/epochs.h"
+
+#include <algorithm>
+
+#include "dsl/check_macro.h"
+
+namespace rg::compiler {
+namespace {
+
+bool joins(const Epoch& epoch, const Use& use) {
+  if (epoch.effect.layout != use.effect.layout) return false;
+  if (!epoch.writes && !use.writes()) return true;
+  return epoch.writes && use.writes() && use.share != Share::none && use.share == epoch.share;
+}
+
+// Host writes happen before the submit, which makes them visible to everything: nothing to wait for on the GPU.
+Effect gpu_effect(const Effect& effect) {
+  Effect result = effect;
+  if (result.writes == access::host_write) result.writes = 0, result.write_stages = 0;
+  return result;
+}
+
+void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segment) {
+  if (epochs.empty() || epochs.back().age != age || !joins(epochs.back(), use)) {
+    Epoch epoch;
+    epoch.age = age, epoch.first_segment = segment, epoch.share = use.share, epoch.writes = use.writes(), epoch.effect.layout = use.effect.layout;
+    epochs.push_back(epoch);
+  }
+  Epoch& epoch = epochs.back();
+  RG_CHECK(segment >= epoch.last_segment, "uses arrive in schedule order");
+  merge(epoch.effect, gpu_effect(use.effect));
+  epoch.last_segment = segment;
+  epoch.needs = epoch.needs || use.needs;
+  epoch.events.push_back({segment, gpu_effect(use.effect).stages(), use.pass});
+}
+
+bool crosses_frames(dsl::Lifetime lifetime) { return lifetime == dsl::Lifetime::history || lifetime == dsl::Lifetime::persistent; }
+
+// Backwards over the boundary, so that a chain of reads over several ages is covered from its start.
+void cover_continued_reads(Line& line) {
+  auto& epochs = line.epochs;
+  for (Epoch& epoch : epochs) epoch.covered = epoch.effect;
+  const size_t n = epochs.size();
+  for (size_t round = 0; round < 2; ++round)
+    for (size_t i = n; i-- > 0;)
+      if (continues(epochs[i], epochs[(i + 1) % n])) merge(epochs[i].covered, epochs[(i + 1) % n].covered);
+}
+
+}  // namespace
+
+void merge(Effect& effect, const Effect& other) {
+  RG_CHECK(effect.layout == other.layout, "uses of one epoch agree on the layout");
+  effect.read_stages |= other.read_stages, effect.write_stages |= other.write_stages;
+  effect.reads |= other.reads, effect.writes |= other.writes;
+}
+
+bool continues(const Epoch& earlier, const Epoch& later) { return !earlier.writes && !later.writes && earlier.effect.layout == later.effect.layout; }
+
+std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
+  std::vector<std::vector<const Use*>> by_cell(frame.cells.size());
+  for (const uint32_t pass : schedule.order)
+    for (const Use& use : frame.uses_of(pass)) by_cell[use.cell].push_back(&use);
+  std::vector<Line> lines;
+  for (uint32_t cell = 0; cell < frame.cells.size(); ++cell) {
+    if (frame.cells[cell].age != 0) continue;
+    const Grid& grid = frame.grids[frame.cells[cell].resource];
+    Line line{cell, {}};
+    for (uint32_t age = 0; age < grid.ages; ++age)
+      for (const Use* use : by_cell[cell + age * grid.cells_per_age()]) add(line.epochs, age, *use, schedule.segment_of[use->pass]);
+    if (line.epochs.empty()) continue;
+    for (Epoch& epoch : line.epochs) epoch.covered = epoch.effect;
+    if (crosses_frames(frame.resource_of(cell).lifetime)) cover_continued_reads(line);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace rg::compiler

@@ -1,0 +1,12 @@
+// Why everything is as it is, for reports and `rgc explain`.
+#pragma once
+
+#include "compiler/emit_plan.h"
+#include "compiler/plan_frame.h"
+
+namespace rg::compiler {
+
+// Subjects: passes ("kept", "culled", "scheduled"), resources ("placed"), barrier groups "group 3" ("barrier"), and "schedule".
+Decisions explain_plan(const PlanParts& parts, const Graph& graph);
+
+}  // namespace rg::compiler

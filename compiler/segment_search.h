@@ -1,0 +1,59 @@
+// The combinatorial core of scheduling: assign passes to segments. Knows nodes, edges and shared items, nothing of graphics.
+//
+//   hard edges   before strictly earlier than after
+//   soft edges   before not later than after
+//   items        weigh `bytes` in every segment from their first to their last user
+//
+// Source of the method: list scheduling with slack (as soon, as late as possible) and simulated annealing on segment numbers, the energy being a
+// high power of each segment's live bytes, a smooth stand-in for their maximum. Moves that break an edge push the neighbours along.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rg::compiler {
+
+struct SegmentProblem {
+  struct Edge {
+    uint32_t before = 0, after = 0;
+    bool hard = true;
+  };
+  struct Item {
+    uint64_t bytes = 0;
+    std::vector<uint32_t> users;
+  };
+  uint32_t nodes = 0;       // numbered in a legal order: before < after for every edge
+  std::vector<Edge> edges;
+  std::vector<Item> items;
+};
+
+using Segments = std::vector<uint32_t>;  // by node
+
+struct SegmentCost {
+  uint32_t segments = 0;
+  uint64_t peak = 0;
+};
+SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments);
+// Less is better: segments * bytes ^ 1.5. A product needs no unit; bytes weigh more because a group is cheap as long as it is wide.
+double score(const SegmentCost& cost);
+
+// Nodes in their order, a new segment wherever one depends on the current.
+Segments program_order_segments(const SegmentProblem& problem);
+// The least number of segments, every node as early as possible.
+Segments earliest_segments(const SegmentProblem& problem);
+// As late as possible within `count` segments. Pre-condition: count >= segments of earliest_segments.
+Segments latest_segments(const SegmentProblem& problem, uint32_t count);
+
+// In proportion to program order, so that what is written together stays together. Same pre-condition.
+Segments spread_segments(const SegmentProblem& problem, uint32_t count);
+
+// The least peak found from `start` within `evaluations` moves, using at most `count` segments.
+Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed);
+
+// Joins neighbouring segments that no hard edge connects, and numbers them without gaps.
+Segments compact_segments(const SegmentProblem& problem, const Segments& segments);
+
+// All of the above: program order and the searched ones, the best by score.
+Segments search_segments(const SegmentProblem& problem);
+
+}  // namespace rg::compiler

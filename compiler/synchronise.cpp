@@ -1,0 +1,251 @@
+#include "compiler/synchronise.h"
+
+#include <algorithm>
+
+#include "dsl/check_macro.h"
+
+namespace rg::compiler {
+namespace {
+
+// One side of a barrier: what happened, or what comes.
+struct Side {
+  Effect effect;
+  bool writes = false;
+  bool defined = true;   // holds contents
+  bool needs = false;    // as the later side: depends on contents
+  std::vector<Event> events;
+};
+
+Side side_of(const Epoch& epoch, bool defined) { return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events}; }
+
+const char* hazard_name(const Side& from, const Side& to, bool discards) {
+  if (!from.defined && from.events.empty()) return "first use";
+  if (discards && !to.needs) return from.writes ? "write after write, contents discarded" : "write after read, contents discarded";
+  if (from.writes) return to.needs ? "read after write" : "write after write";
+  return to.writes ? "write after read" : "layout";
+}
+
+class Synchroniser {
+ public:
+  Synchroniser(const Frame& frame, const Schedule& schedule, const PlanOptions& options) : frame_(frame), schedule_(schedule), options_(options) {
+    sync_.groups.resize(schedule.segments + 1);
+  }
+
+  SyncPlan run(const std::vector<Line>& lines) {
+    find_first_segments(lines);
+    for (const Line& line : lines) {
+      switch (frame_.resource_of(line.cell).lifetime) {
+        case dsl::Lifetime::transient: transient(line); break;
+        case dsl::Lifetime::history:
+        case dsl::Lifetime::persistent: circle(line); break;
+        case dsl::Lifetime::imported: imported(line); break;
+        case dsl::Lifetime::readback: readback(line); break;
+      }
+    }
+    place_exits();
+    return std::move(sync_);
+  }
+
+ private:
+  bool is_image(uint32_t cell) const { return frame_.resource_of(cell).kind == dsl::ResourceKind::image; }
+  uint32_t cell_at(const Line& line, uint32_t age) const { return line.cell + age * frame_.grids[frame_.cells[line.cell].resource].cells_per_age(); }
+
+  void find_first_segments(const std::vector<Line>& lines) {
+    first_segment_.assign(frame_.graph->resources.size(), UINT32_MAX);
+    for (const Line& line : lines) {
+      uint32_t& first = first_segment_[frame_.cells[line.cell].resource];
+      for (const Epoch& epoch : line.epochs) first = std::min(first, epoch.first_segment);
+    }
+  }
+
+  // ---- one barrier ------------------------------------------------------------------------------------------------
+
+  CellBarrier connect(uint32_t cell, const Side& from, const Side& to) const {
+    CellBarrier b;
+    b.cell = cell, b.range = frame_.cells[cell].range, b.begin = frame_.cells[cell].begin, b.end = frame_.cells[cell].end;
+    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs));
+    if (is_image(cell)) b.old_layout = discards ? Layout::undefined : from.effect.layout, b.new_layout = to.effect.layout;
+    const bool new_layout = is_image(cell) && (b.old_layout != b.new_layout);
+    const bool rewrites = to.writes || new_layout;  // waits for readers too
+
+    b.src_accesses = from.effect.writes;
+    b.src_stages = from.effect.write_stages;
+    if (rewrites || !from.writes) b.src_stages |= latest_stages(from.effect.read_stages | from.effect.write_stages) & ~from.effect.write_stages;
+    fill_second_scope(b, from, to, new_layout);
+    b.sources = from.events;
+    b.reason = hazard_name(from, to, discards);
+    return b;
+  }
+
+  static void fill_second_scope(CellBarrier& b, const Side& from, const Side& to, bool new_layout) {
+    const Effect& e = to.effect;
+    if (from.writes || new_layout) {
+      b.dst_stages = e.stages(), b.dst_accesses = e.reads | e.writes;
+      return;
+    }
+    // Contents made available to the readers before, not yet visible to the reads of this one.
+    const bool visible = (e.reads & ~from.effect.reads) == 0 && (e.read_stages & ~from.effect.read_stages) == 0;
+    if (to.needs && from.defined && e.reads && !visible)
+      b.dst_stages = e.read_stages | earliest_stages(e.write_stages), b.dst_accesses = e.reads;
+    else
+      b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
+  }
+
+  // Nothing to order and nothing to change.
+  bool is_void(const CellBarrier& b) const { return b.src_stages == 0 && b.old_layout == b.new_layout; }
+
+  void add(uint32_t group, CellBarrier barrier) {
+    if (!is_void(barrier)) sync_.groups[group].push_back(std::move(barrier));
+  }
+
+  // ---- within a frame -----------------------------------------------------------------------------------------------
+
+  // Barriers between neighbouring epochs of one age; gives whether contents are defined at the end.
+  bool connect_within(const Line& line, size_t first, size_t end, bool defined) {
+    for (size_t i = first; i < end; ++i) {
+      const Epoch& to = line.epochs[i];
+      if (i > first) add(to.first_segment, connect(cell_at(line, to.age), side_of(line.epochs[i - 1], defined), side_of(to, true)));
+      defined = defined || to.writes;
+    }
+    return defined;
+  }
+
+  // ---- lifetimes ----------------------------------------------------------------------------------------------------
+
+  void transient(const Line& line) {
+    const uint32_t resource = frame_.cells[line.cell].resource, group = first_segment_[resource];
+    Side last = side_of(line.epochs.back(), false);
+    CellBarrier acquire = connect(line.cell, last, side_of(line.epochs.front(), true));
+    acquire.is_acquire = acquire.wraps = true;
+    add(group, std::move(acquire));
+    connect_within(line, 0, line.epochs.size(), false);
+    note_hand_over(resource, group, line.epochs.front().effect, line.epochs.back().effect);
+    boundary(sync_.entry, line.cell, last.effect, last.writes, Layout::undefined, true);
+    boundary(sync_.exit, line.cell, last.effect, last.writes, last.effect.layout, true);
+  }
+
+  void note_hand_over(uint32_t resource, uint32_t group, const Effect& first, const Effect& last) {
+    if (sync_.acquires.empty() || sync_.acquires.back().resource != resource) {
+      sync_.acquires.push_back({resource, group, kNone, 0, 0, 0});
+      sync_.releases.push_back({resource, 0, 0});
+    }
+    sync_.acquires.back().stages |= first.stages(), sync_.acquires.back().accesses |= first.reads | first.writes;
+    sync_.releases.back().stages |= last.write_stages | latest_stages(last.stages());
+    sync_.releases.back().accesses |= last.writes;
+  }
+
+  // History and persistent: the state at the end of one age is the state at the start of the next.
+  void circle(const Line& line) {
+    const auto& epochs = line.epochs;
+    const uint32_t ages = frame_.grids[frame_.cells[line.cell].resource].ages;
+    for (size_t i = 0; i < epochs.size(); ++i) {
+      const Epoch &from = epochs[(i + epochs.size() - 1) % epochs.size()], &to = epochs[i];
+      if (continues(from, to)) continue;
+      CellBarrier b = connect(cell_at(line, to.age), side_of(from, true), side_of(to, true));
+      b.wraps = i == 0 || from.age != to.age;
+      add(to.first_segment, std::move(b));
+    }
+    const Epoch& first = epochs.front();
+    const bool dead = first.age == 0 && !first.needs && ages > 1;
+    std::vector<const Epoch*> at_exit(ages, nullptr);
+    for (const Epoch& epoch : epochs) at_exit[epoch.age] = &epoch;
+    const Epoch* state = &epochs.back();  // of the oldest age that has any
+    for (uint32_t age = 0; age < ages; ++age) {
+      boundary(sync_.entry, cell_at(line, age), state->covered, state->writes, state->effect.layout, age == 0 && dead);
+      if (at_exit[age]) state = at_exit[age];
+      boundary(sync_.exit, cell_at(line, age), state->covered, state->writes, state->effect.layout, age + 1 == ages && dead);
+    }
+  }
+
+  void imported(const Line& line) {
+    const dsl::Resource& resource = frame_.resource_of(line.cell);
+    const uint32_t aspect = frame_.cells[line.cell].range.aspects;
+    const Side before = state_before(resource, aspect, line.epochs.front());
+    Effect after = effect_of(resource.after, aspect);
+    Line whole = line;
+    cover_after(whole, before, after);
+    const Epoch& first = whole.epochs.front();
+    if (!is_visible(before, first)) add(first.first_segment, connect(line.cell, before, side_of(first, true)));
+    const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
+    const Epoch& last = whole.epochs.back();
+    const Side next{after, after.writes != 0, true, true, {}};
+    const bool stays = resource.after.role == dsl::Role::undefined || (!last.writes && !next.writes && (after.layout == last.effect.layout));
+    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(last, defined), next)});
+    boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
+    const bool undefined_after = resource.after.role == dsl::Role::undefined;
+    boundary(sync_.exit, line.cell, undefined_after ? last.effect : after, undefined_after ? last.writes : next.writes,
+             undefined_after ? last.effect.layout : after.layout, undefined_after);
+  }
+
+  // Contents of unknown state are worthless. A presented image is handed over by a semaphore, waited for at its first use; another one is ordered
+  // after whatever `after` says was done with it.
+  Side state_before(const dsl::Resource& resource, uint32_t aspect, const Epoch& first) const {
+    Side side{effect_of(resource.before, aspect), false, true, true, {}};
+    side.writes = side.effect.writes != 0;
+    if (resource.before.role != dsl::Role::undefined) return side;
+    side.defined = false;
+    const Effect after = effect_of(resource.after, aspect);
+    side.effect = {after.stages() ? after.stages() : first.effect.stages(), 0, 0, 0, Layout::undefined};
+    return side;
+  }
+
+  // Reads that the frame ends with and reads that come after it share a barrier, if the frame has one before them.
+  void cover_after(Line& line, const Side& before, const Effect& after) const {
+    Epoch& last = line.epochs.back();
+    const bool alone = line.epochs.size() == 1 && is_visible(before, last);
+    if (!last.writes && !after.writes && after.layout == last.effect.layout && !alone) merge(last.covered, after);
+  }
+
+  static bool is_visible(const Side& before, const Epoch& first) {
+    const Effect &b = before.effect, &f = first.effect;
+    return before.defined && !before.writes && !first.writes && b.layout == f.layout && (f.reads & ~b.reads) == 0 && (f.read_stages & ~b.read_stages) == 0;
+  }
+
+  void readback(const Line& line) {
+    connect_within(line, 0, line.epochs.size(), false);
+    const Epoch& last = line.epochs.back();
+    Effect host;
+    host.read_stages = stage::host, host.reads = access::host_read;
+    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(last, true), {host, false, true, true, {}})});
+    boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
+    boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
+  }
+
+  // ---- the frame's end ----------------------------------------------------------------------------------------------
+
+  // Together in the closing group where one needs it, else in the last group there is.
+  void place_exits() {
+    const uint32_t end = schedule_.segments;
+    const bool closes = std::any_of(exits_.begin(), exits_.end(), [&](const Exit& exit) { return exit.earliest_group == end; });
+    for (Exit& exit : exits_) add(closes ? end : end - 1, std::move(exit.barrier));
+  }
+
+  static void boundary(std::vector<CellBoundary>& rows, uint32_t cell, const Effect& effect, bool writes, Layout layout, bool discard) {
+    Boundary row;
+    row.stages = effect.stages(), row.layout = layout, row.queue = 0, row.discard = discard;
+    if (writes || !discard) row.accesses = writes ? effect.writes : effect.reads;
+    rows.push_back({cell, row});
+  }
+
+  struct Exit {
+    uint32_t earliest_group = 0;
+    CellBarrier barrier;
+  };
+  const Frame& frame_;
+  const Schedule& schedule_;
+  const PlanOptions& options_;
+  SyncPlan sync_;
+  std::vector<uint32_t> first_segment_;  // by program resource
+  std::vector<Exit> exits_;
+};
+
+}  // namespace
+
+SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options) {
+  SyncPlan sync = Synchroniser(frame, schedule, options).run(lines);
+  for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
+  drop_implied(sync);
+  return sync;
+}
+
+}  // namespace rg::compiler

@@ -1,0 +1,62 @@
+// Barriers: every ordering and layout the schedule needs, exact per cell, and the state of each cell at the frame boundary.
+//
+//   hazard              first scope                    second scope
+//   read after write    the writes                     all reads of the version, wherever they come
+//   write after write   the writes                     the write
+//   write after read    execution of the reads         execution of the write
+//   new layout          as above                       also accesses: the transition itself writes
+//
+// A barrier stands in the group before the segment of its first user. Old contents that nobody needs are discarded (old layout undefined). All discards
+// of one transient stand in the group where it is acquired, so that memory changes hands at one place.
+//
+// Across frames: frames follow each other on one queue, so the last epoch of a cell precedes its first epoch of the next frame. Transients and dead
+// copies enter undefined, after the last users of the frame before. Imported resources enter in their declared `before` state and leave in `after`.
+// Read-back buffers leave visible to the host, and enter free, because the host has waited.
+//
+// Boundary states: `stages` are those of the last users; `accesses` hold writes that are not yet available, or, where the last epoch reads,
+// the reads the contents are already visible to.
+#pragma once
+
+#include <vector>
+
+#include "compiler/epochs.h"
+#include "compiler/frame.h"
+#include "compiler/make_schedule.h"
+
+namespace rg::compiler {
+
+struct CellBarrier {
+  uint32_t cell = 0;     // with its age
+  Range range;           // as merged; equals the cell's at first
+  uint64_t begin = 0, end = 0;
+  Stages src_stages = 0, dst_stages = 0;
+  Accesses src_accesses = 0, dst_accesses = 0;
+  Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
+  BarrierTag tag = BarrierTag::hazard;
+  bool is_acquire = false;        // first use of a transient
+  bool wraps = false;             // its first scope lies in the frame before
+  std::vector<Event> sources;     // what must have happened
+  std::string reason;             // "read after write"
+};
+
+struct CellBoundary {
+  uint32_t cell = 0;
+  Boundary row;  // without reference and range
+};
+
+struct SyncPlan {
+  std::vector<std::vector<CellBarrier>> groups;  // groups[s] stands before segment s; the last one ends the frame
+  std::vector<CellBoundary> entry, exit;
+  std::vector<Acquire> acquires;                 // resources by program index; image barriers filled when the plan is emitted
+  std::vector<Release> releases;
+};
+
+SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options);
+
+// Joins barriers of one group that differ only in neighbouring mips, layers or bytes. Part of synchronise.
+void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group);
+
+// Removes what other barriers already order: execution-only barriers, and stages of execution-only first scopes. Part of synchronise.
+void drop_implied(SyncPlan& sync);
+
+}  // namespace rg::compiler
