@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "compiler/machine/hardware.h"
+
 namespace rg::machine {
 namespace {
 
@@ -123,7 +125,8 @@ Region region_of(const dsl::Program& program, const dsl::Graph& graph, const Cel
   const Piece& whole = cells.resources[access.resource.value].whole;
   const dsl::Range& range = access.range;
   if (graph.resources[access.resource].kind == dsl::ResourceKind::image)
-    return subresources(whole, range.aspects ? range.aspects : aspects_seen(access.role, whole.aspect), range.mip, range.mips, range.layer, range.layers);
+    return subresources(whole, range.aspects ? range.aspects : aspects_seen(access.role, whole.aspect), range.mip, is_attachment(access.role) ? 1 : range.mips,
+                        range.layer, range.layers);
   const uint64_t begin = range.offset.valid() ? static_cast<uint64_t>(length(program, range.offset, cells.extents)) : 0;
   const uint64_t end = range.size.valid() ? begin + static_cast<uint64_t>(length(program, range.size, cells.extents)) : whole.x1;
   return by_aspect(1, begin, std::min(end, whole.x1), 0, 1);

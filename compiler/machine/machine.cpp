@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "compiler/machine/hand_offs.h"
 #include "compiler/machine/memory.h"
 
 namespace rg::machine {
@@ -165,7 +166,8 @@ std::string text(const Divergence& divergence) {
 std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
                                           const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource,
                                           const MachineOptions& options) {
-  const Question question{program, program.graphs[graph], configuration, plan, program_pass, program_resource};
+  const PatchedPlan patched(plan, options.placement);
+  const Question question{program, program.graphs[graph], configuration, patched.plan(), program_pass, program_resource};
   std::vector<Divergence> found = answer(question, options, run_directed);
   size_t commands = 0;
   for (const Batch& batch : plan.batches) commands += batch.step_count;

@@ -31,7 +31,7 @@ struct Placement {
 
 struct MachineOptions {
   uint32_t frames = 3;
-  std::vector<Placement> placement;     // by plan resource; empty: nothing is aliased. The plan must hold the hand-offs for it.
+  std::vector<Placement> placement;     // by plan resource; empty: nothing is aliased. Its hand-offs are patched into the plan.
   std::vector<int64_t> extents;         // 3 values an extent; empty: the initial ones
   std::vector<uint64_t> conditions;     // by frame, the last one repeats: bits by dsl::ConditionId; empty: none hold
   size_t exhaustive_commands = 5;       // plans of at most so many passes and barrier groups also run one frame in all orders ...

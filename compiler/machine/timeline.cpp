@@ -240,6 +240,7 @@ struct Unroller {
     event.result.assign(event.cells.size(), imported_version(in.graph, resource, frame));
     event.layout = boundary_layout(in.plan.entry, resource, before.role);
     event.pending = before.wrote;
+    event.before_all = !changes_outside(in.graph, resource);
     for (const Touch& touch : touches_of(before)) {
       event.stages |= touch.stage;
       event.agent = agent(touch.stage, touch.access);

@@ -30,6 +30,7 @@ struct Event {
   Stages src = 0, dst = 0;           // of a barrier, logically earlier and later stages included
   std::vector<uint32_t> after;       // besides: events that precede in any case
   bool after_all = false;            // fence or binary semaphore: all earlier events precede
+  bool before_all = false;           // done before the first frame was submitted
   // Accesses.
   uint32_t agent = kNone;
   Layout layout = Layout::undefined; // required; images only

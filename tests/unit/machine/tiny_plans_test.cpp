@@ -241,7 +241,7 @@ TEST(TinyPlans, AliasWithoutHandOff) {
   a.frame.plan.memory_barriers[1].src_stages = stage::fragment_shader;  // y waits for its own readers of the last frame only
   a.frame.plan.image_barriers[2].src_stages = stage::fragment_shader;
   expect_legal(a.frame);  // without common memory nothing is wrong
-  expect_divergence(a.frame, "read_x", "x", "poison", a.options);
+  expect_divergence(a.frame, "read_y", "y", "poison", a.options);
 }
 TEST(TinyPlans, AliasedLifetimesOverlap) {
   Aliased a = aliased_images();
