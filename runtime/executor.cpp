@@ -17,6 +17,27 @@ namespace rg {
 
 namespace {
 
+Status create_fence(const Context& context, FrameSlot& slot) {
+  VkFenceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+  info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+  VkFence fence = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateFence(context.device.device, &info, nullptr, &fence), "vkCreateFence", context.plan.name));
+  slot.fence = UniqueFence(context.vk(), context.device.device, fence);
+  return Done{};
+}
+
+Status create_queries(const Context& context, uint32_t queries, FrameSlot& slot) {
+  VkQueryPoolCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = queries;
+  VkQueryPool pool = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateQueryPool(context.device.device, &info, nullptr, &pool), "vkCreateQueryPool", context.plan.name));
+  slot.queries = UniqueQueryPool(context.vk(), context.device.device, pool);
+  return Done{};
+}
+
 Status create_slot(const Context& context, uint32_t command_buffers, uint32_t queries, FrameSlot& slot) {
   VkCommandPoolCreateInfo pool_info{};
   pool_info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -31,15 +52,8 @@ Status create_slot(const Context& context, uint32_t command_buffers, uint32_t qu
   info.commandPool = pool;
   info.commandBufferCount = command_buffers;
   RG_TRY(check(context.vk().AllocateCommandBuffers(context.device.device, &info, slot.commands.data()), "vkAllocateCommandBuffers", context.plan.name));
-  if (queries == 0 || context.device.timestamp_bits == 0) return Done{};
-  VkQueryPoolCreateInfo query_info{};
-  query_info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-  query_info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-  query_info.queryCount = queries;
-  VkQueryPool query_pool = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateQueryPool(context.device.device, &query_info, nullptr, &query_pool), "vkCreateQueryPool", context.plan.name));
-  slot.queries = UniqueQueryPool(context.vk(), context.device.device, query_pool);
-  return Done{};
+  if (context.device.validating) RG_TRY(create_fence(context, slot));
+  return queries == 0 || context.device.timestamp_bits == 0 ? Status(Done{}) : create_queries(context, queries, slot);
 }
 
 Result<UniqueSemaphore> create_timeline(const Context& context) {
@@ -86,20 +100,24 @@ VkSubmitInfo2 submit_info(const VkCommandBufferSubmitInfo& commands) {
   return info;
 }
 
-Status submit(GraphInstance::State& state, uint32_t count, const VkSubmitInfo2* infos) {
-  const std::lock_guard lock(state.context.device.queue_mutex);
-  return check(state.context.vk().QueueSubmit2(state.context.device.queue, count, infos, VK_NULL_HANDLE), "vkQueueSubmit2", state.context.plan.name);
+Status submit(GraphInstance::State& state, FrameSlot& slot, uint32_t count, const VkSubmitInfo2* infos) {
+  const Context& context = state.context;
+  const VkFence fence = slot.fence.get();
+  slot.value = 0;  // its last frame was waited for; if this submit fails there is nothing to wait for
+  if (slot.fence) RG_TRY(check(context.vk().ResetFences(context.device.device, 1, &fence), "vkResetFences", context.plan.name));
+  const std::lock_guard lock(context.device.queue_mutex);
+  return check(context.vk().QueueSubmit2(context.device.queue, count, infos, fence), "vkQueueSubmit2", context.plan.name);
 }
 
 // One submit of one command buffer that advances the timeline.
-Status submit_one(GraphInstance::State& state, VkCommandBuffer commands) {
+Status submit_one(GraphInstance::State& state, FrameSlot& slot, VkCommandBuffer commands) {
   const VkCommandBufferSubmitInfo command_info = commands_info(commands);
   const VkSemaphoreSubmitInfo signal = semaphore_info(state.timeline.get(), state.submitted + 1, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
   VkSubmitInfo2 info = submit_info(command_info);
   info.signalSemaphoreInfoCount = 1;
   info.pSignalSemaphoreInfos = &signal;
-  RG_TRY(submit(state, 1, &info));
-  ++state.submitted;
+  RG_TRY(submit(state, slot, 1, &info));
+  slot.value = ++state.submitted;
   return Done{};
 }
 
@@ -209,8 +227,8 @@ Status run_batches(GraphInstance::State& state, const FrameInputs& inputs, Frame
   const Plan& plan = state.context.plan;
   for (size_t b = 0; b < plan.batches.size(); ++b) RG_TRY(record_batch(state, inputs, slot, plan.batches[b], slot.commands[b], b == 0));
   fill_submits(state, slot);
-  RG_TRY(submit(state, static_cast<uint32_t>(state.submits.size()), state.submits.data()));
-  ++state.submitted;
+  RG_TRY(submit(state, slot, static_cast<uint32_t>(state.submits.size()), state.submits.data()));
+  slot.value = ++state.submitted;
   return Done{};
 }
 
@@ -226,7 +244,7 @@ Status run_one_by_one(GraphInstance::State& state, const FrameInputs& inputs, Fr
     close_module(recording);
     RG_TRY(end_commands(state.context, slot.commands[s]));
     const auto start = std::chrono::steady_clock::now();
-    RG_TRY(submit_one(state, slot.commands[s]));
+    RG_TRY(submit_one(state, slot, slot.commands[s]));
     RG_TRY(wait_for(state, state.submitted));
     if (plan.steps[s].kind == StepKind::pass) state.wall_ms[plan.steps[s].index] = milliseconds(std::chrono::steady_clock::now() - start);
   }
@@ -250,6 +268,16 @@ Status create_frames(GraphInstance::State& state) {
   return Done{};
 }
 
+namespace {
+
+Status wait_for_fence(const Context& context, const FrameSlot& slot, uint64_t value) {
+  if (!slot.fence || slot.value == 0 || slot.value > value) return Done{};
+  const VkFence fence = slot.fence.get();
+  return check(context.vk().WaitForFences(context.device.device, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences", context.plan.name);
+}
+
+}  // namespace
+
 Status wait_for(const GraphInstance::State& state, uint64_t value) {
   if (value == 0) return Done{};
   const VkSemaphore semaphore = state.timeline.get();
@@ -258,7 +286,10 @@ Status wait_for(const GraphInstance::State& state, uint64_t value) {
   info.semaphoreCount = 1;
   info.pSemaphores = &semaphore;
   info.pValues = &value;
-  return check(state.context.vk().WaitSemaphores(state.context.device.device, &info, UINT64_MAX), "vkWaitSemaphores", state.context.plan.name);
+  RG_TRY(check(state.context.vk().WaitSemaphores(state.context.device.device, &info, UINT64_MAX), "vkWaitSemaphores", state.context.plan.name));
+  RG_TRY(wait_for_fence(state.context, state.prologue, value));
+  for (const FrameSlot& slot : state.slots) RG_TRY(wait_for_fence(state.context, slot, value));
+  return Done{};
 }
 
 Status release_retired(GraphInstance::State& state) {
@@ -277,9 +308,7 @@ Status submit_prologue(GraphInstance::State& state, const Sized& sized) {
   RG_TRY(begin_commands(state.context, commands));
   record_prologue(state.context, sized, commands, state.frame);
   RG_TRY(end_commands(state.context, commands));
-  RG_TRY(submit_one(state, commands));
-  state.prologue.value = state.submitted;
-  return Done{};
+  return submit_one(state, state.prologue, commands);
 }
 
 Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
@@ -294,7 +323,6 @@ Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
   RG_TRY(write_updates(state.context, *state.sized, inputs, state.frame));
   const bool one_by_one = state.context.submit_per_pass;
   RG_TRY(one_by_one ? run_one_by_one(state, inputs, slot) : run_batches(state, inputs, slot));
-  slot.value = state.submitted;
   slot.frame = state.frame++;
   if (state.dump.pass != kNone && state.dump.value == 0) state.dump.value = state.submitted;
   return Done{};

@@ -192,6 +192,7 @@ struct FrameSlot {
   UniqueCommandPool pool;
   std::vector<VkCommandBuffer> commands;
   UniqueQueryPool queries;
+  UniqueFence fence;                                     // only when validating: the layer learns nothing from waits on timelines
   uint64_t value = 0;                                    // of the timeline when its last frame is done
   uint64_t frame = UINT64_MAX;
 };

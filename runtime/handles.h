@@ -44,6 +44,7 @@ using UniqueFramebuffer = Unique<VkFramebuffer, &DeviceFunctions::DestroyFramebu
 using UniqueSetLayout = Unique<VkDescriptorSetLayout, &DeviceFunctions::DestroyDescriptorSetLayout>;
 using UniqueDescriptorPool = Unique<VkDescriptorPool, &DeviceFunctions::DestroyDescriptorPool>;
 using UniqueSemaphore = Unique<VkSemaphore, &DeviceFunctions::DestroySemaphore>;
+using UniqueFence = Unique<VkFence, &DeviceFunctions::DestroyFence>;
 using UniqueQueryPool = Unique<VkQueryPool, &DeviceFunctions::DestroyQueryPool>;
 using UniqueCommandPool = Unique<VkCommandPool, &DeviceFunctions::DestroyCommandPool>;
 
