@@ -8,8 +8,8 @@ work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 mkdir "$work/bin"
 ln -s "$binary_dir/compiler/rgc" "$work/bin/rgc"
-demo=$(find "$binary_dir/examples" -name demo -type f -perm -u+x 2>/dev/null | head -n 1)
-[ -z "$demo" ] || ln -s "$demo" "$work/bin/demo"
+demo=$binary_dir/examples/demo/rgc_demo
+[ ! -x "$demo" ] || ln -s "$demo" "$work/bin/demo"
 export PATH=$work/bin:$PATH LC_ALL=C RGC_SOURCE=$source_dir
 unset NO_COLOR
 
@@ -30,7 +30,7 @@ for cmd in "$cases"/*/cmd; do
   folder=${cmd%/cmd} name=${cmd%/cmd}
   name=tests/cli/${name##*/}
   [[ "$name/cmd" == *"${RGC_GOLDEN:-}"* || "${RGC_GOLDEN:-}" == *"$name"* ]] || continue
-  if [ -z "$demo" ] && grep -q '^demo ' "$cmd"; then continue; fi
+  if [ ! -x "$demo" ] && grep -q '^demo ' "$cmd"; then continue; fi
   run_case "$folder" | sed "s|$work/case|CASE|g; s|$source_dir|SOURCE|g" >"$work/actual"
   if [ -n "${RGC_UPDATE:-}" ]; then cp "$work/actual" "$folder/expected"; fi
   if diff -u --label "$name/expected" --label actual "$folder/expected" "$work/actual"; then
