@@ -198,13 +198,28 @@ void check_places(Aliases& aliases) {
 
 }  // namespace
 
-void check_aliases(const Model& model, const SyncResult& sync, Report& report) {
+namespace {
+
+Aliases make_aliases(const Model& model, const SyncResult& sync, Report& report) {
   Aliases aliases{model, sync, report, {}, {}, {}, {}};
   find_steps(aliases);
   find_hands(aliases);
   find_used(aliases);
+  return aliases;
+}
+
+}  // namespace
+
+void check_release_redundancy(const Model& model, const SyncResult& sync, Report& report) {
+  Aliases aliases = make_aliases(model, sync, report);
+  for (uint32_t r = 0; r < aliases.hands.size() && !report.full(); ++r)
+    if (aliases.hands[r].gives) check_release_exact(aliases, r);
+}
+
+void check_aliases(const Model& model, const SyncResult& sync, Report& report) {
+  Aliases aliases = make_aliases(model, sync, report);
   for (uint32_t r = 0; r < aliases.hands.size() && !report.full(); ++r) {
-    if (aliases.hands[r].gives) check_release(aliases, r), check_release_exact(aliases, r);
+    if (aliases.hands[r].gives) check_release(aliases, r);
     if (aliases.hands[r].takes) check_acquire(aliases, r);
   }
   for (const AliasPair& pair : plan_of(aliases).alias_pairs) check_pair(aliases, pair);

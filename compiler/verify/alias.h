@@ -11,5 +11,7 @@
 namespace rg::verify {
 
 void check_aliases(const Model& model, const SyncResult& sync, Report& report);
+// Release bits that no last user needs.
+void check_release_redundancy(const Model& model, const SyncResult& sync, Report& report);
 
 }  // namespace rg::verify

@@ -232,6 +232,7 @@ void check_transition(Replay& replay, const Scope& scope, uint32_t id, uint32_t 
                         "its source stages do not wait for it");
   }
   for (const WriteRecord& write : state.writes) {
+    if (write.read_since) continue;  // its readers saw it, and the transition waits for them
     if (in_source(scope, id, write, proof))
       replay.require(proof);
     else

@@ -22,7 +22,9 @@ void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<
   check_aliases(model, sync, report);
   replay_contents(model, extents, report);
   // Redundancy of a plan that is wrong means nothing.
-  if (options.irredundancy && report.empty()) check_redundancy(model, sync.required, report);
+  if (!options.irredundancy || !report.empty()) return;
+  check_redundancy(model, sync.required, report);
+  check_release_redundancy(model, sync, report);
 }
 
 }  // namespace
