@@ -8,8 +8,12 @@ namespace rg {
 
 namespace {
 
-VkMemoryBarrier2 translate(const MemoryBarrier& in) {
-  return {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, in.src_stages, in.src_accesses, in.dst_stages, in.dst_accesses};
+// The specification counts vkCmdFillBuffer to the clears, the validation layer to the copies: barriers that fills take part in name both
+// while it watches.
+Stages watched(const Context& context, Stages stages) { return context.device.validating && (stages & stage::clear) != 0 ? stages | stage::copy : stages; }
+
+VkMemoryBarrier2 translate(const Context& context, const MemoryBarrier& in) {
+  return {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, watched(context, in.src_stages), in.src_accesses, watched(context, in.dst_stages), in.dst_accesses};
 }
 
 VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkImageSubresourceRange& range) {
@@ -27,12 +31,12 @@ VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkI
   return out;
 }
 
-VkBufferMemoryBarrier2 translate(const BufferBarrier& in, const BufferSpan& span) {
+VkBufferMemoryBarrier2 translate(const Context& context, const BufferBarrier& in, const BufferSpan& span) {
   VkBufferMemoryBarrier2 out{};
   out.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
-  out.srcStageMask = in.src_stages;
+  out.srcStageMask = watched(context, in.src_stages);
   out.srcAccessMask = in.src_accesses;
-  out.dstStageMask = in.dst_stages;
+  out.dstStageMask = watched(context, in.dst_stages);
   out.dstAccessMask = in.dst_accesses;
   out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   out.buffer = span.buffer;
@@ -85,7 +89,7 @@ void add_buffers(const Context& context, const Sized& sized, const BarrierGroup&
     const ByteRange bytes = byte_range(context, sized, barrier.bytes);
     if (bytes.size == 0) continue;
     const bool from_engine = imported(sized, barrier.buffer.resource);
-    table.buffers.push_back(translate(barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
+    table.buffers.push_back(translate(context, barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
   }
 }
 
@@ -125,8 +129,8 @@ void fill_infos(GroupTable& table) {
 
 void add_memory(const Context& context, const BarrierGroup& group, const MemoryBarrier* hand_off, GroupTable& table) {
   for (const MemoryBarrier& barrier : context.plan.memory_barriers.subspan(group.first_memory, group.memory_count))
-    if (barrier.src_stages != 0 || barrier.src_accesses != 0) table.memory.push_back(translate(barrier));
-  if (hand_off != nullptr) table.memory.push_back(translate(*hand_off));
+    if (barrier.src_stages != 0 || barrier.src_accesses != 0) table.memory.push_back(translate(context, barrier));
+  if (hand_off != nullptr) table.memory.push_back(translate(context, *hand_off));
 }
 
 }  // namespace

@@ -9,6 +9,8 @@ namespace rg {
 namespace {
 
 constexpr uint32_t kPattern = 0x7fc07fc0;  // a NaN as 32-bit and as 16-bit float, an implausible integer
+// The specification counts vkCmdFillBuffer to the clears, the validation layer to the copies.
+constexpr VkPipelineStageFlags2 kFillStages = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr float kDepthPattern = 0.625f;
 
 bool can_fill(const Context& context, Index resource) {
@@ -49,7 +51,7 @@ void poison_images(const Sized& sized, Index resource, GroupTable& group, Poison
 
 void poison_buffer(const Acquire& acquire, Index resource, GroupTable& group, PoisonTable& poison) {
   poison.targets.push_back({resource, {}});
-  group.memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, acquire.stages, acquire.accesses});
+  group.memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, acquire.stages, acquire.accesses});
   for (VkDependencyInfo& info : group.infos) {
     info.memoryBarrierCount = static_cast<uint32_t>(group.memory.size());
     info.pMemoryBarriers = group.memory.data();
@@ -92,7 +94,7 @@ void add_poison(const Context& context, Sized& sized) {
 
 void record_poison(const Context& context, const Sized& sized, const PoisonTable& poison, VkCommandBuffer commands) {
   const VkMemoryBarrier2 before{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+                                kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT};
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   info.memoryBarrierCount = 1;

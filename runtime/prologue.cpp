@@ -9,6 +9,9 @@ namespace rg {
 
 namespace {
 
+// The specification counts vkCmdFillBuffer to the clears, the validation layer to the copies.
+constexpr VkPipelineStageFlags2 kFillStages = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
+
 bool cleared(const Resource& resource) { return resource.init == InitKind::clear; }
 
 VkImageMemoryBarrier2 image_barrier(VkImage image, const VkImageSubresourceRange& range) {
@@ -106,7 +109,7 @@ void enter(const Context& context, const Sized& sized, uint64_t frame, VkCommand
     if (is_image(context, boundary))
       enter_image(context, sized, boundary, frame, images);
     else if (needs_clear(context, sized, boundary))
-      memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+      memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                         boundary.stages != 0 ? boundary.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                         boundary.stages != 0 ? boundary.accesses : VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
   }
