@@ -1,4 +1,5 @@
 // rgc: compiles a render graph. Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -26,6 +27,18 @@ int run_and_flush(const Run& run) {
   return exit_input_wrong;
 }
 
+// CLI11 would only say that a subcommand is missing.
+bool names_a_command(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) return true;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return true;
+  const auto meant = nearest(word, names);
+  std::fprintf(stderr, "rgc: there is no command `%s`%s\n", word.c_str(), meant ? ("; did you mean `" + *meant + "`?").c_str() : "");
+  std::fprintf(stderr, "Run with --help for more information.\n");
+  return false;
+}
+
 int run_command(int argc, char** argv) {
   CLI::App app{"rgc compiles a render graph: .rg files become C++ and SPIR-V.", "rgc"};
   app.require_subcommand(1);
@@ -33,6 +46,7 @@ int run_command(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.");
   Run run;
   for (auto* add : {add_build, add_check, add_fmt, add_verify, add_explain, add_report, add_graph, add_diff, add_emit}) add(app, run);
+  if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

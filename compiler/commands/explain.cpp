@@ -42,7 +42,7 @@ std::string_view family(std::string_view code) {
 int explain_code(const std::string& code) {
   for (const DiagnosticKind kind : dsl::all_diagnostic_kinds()) {
     if (dsl::row(kind).code != code) continue;
-    print(code_line(kind) + "\n" + std::string(family(code)) + "\n{0}, {1} stand for what was found. docs/diagnostics.md shows an example.\n");
+    print(code_line(kind) + "\n" + std::string(family(code)) + "\n{0}, {1} stand for what was found. docs/diagnostics.md lists all codes.\n");
     return exit_done;
   }
   dsl::Diagnostics diagnostics;

@@ -67,7 +67,8 @@ std::optional<std::string> read_all(int file, size_t bytes, std::string& why) {
 
 bool inside(const fs::path& folder, const fs::path& path) {
   std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder.empty() ? fs::path(".") : folder, error), full = fs::weakly_canonical(path, error);
+  const fs::path root = fs::weakly_canonical(folder.empty() ? fs::current_path() : fs::absolute(folder), error);
+  const fs::path full = fs::weakly_canonical(fs::absolute(path), error);
   if (error) return false;
   return std::mismatch(root.begin(), root.end(), full.begin(), full.end()).first == root.end();
 }
@@ -135,7 +136,7 @@ bool prepare(const fs::path& path, const std::string& text, std::vector<Replacem
     replacements.push_back({temporary, path});
     failed = write_new(temporary, text);
   }
-  if (failed) diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {path.string(), reason(failed)});
+  if (failed) diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {path.string(), failed == ENOENT ? "its folder cannot be made" : reason(failed)});
   return !failed;
 }
 
