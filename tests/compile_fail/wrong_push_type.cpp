@@ -1,0 +1,11 @@
+// error: cannot convert
+// Push constants of another pass's struct.
+#include "recorders.h"
+
+void record(recorders::MeshesPass& pass) {
+#ifdef RG_RIGHT
+  pass.push(recorders::Draw{.model = 1});
+#else
+  pass.push(recorders::Blur_std140{.radius = 1});
+#endif
+}
