@@ -7,16 +7,19 @@ namespace {
 
 constexpr Layout kTornLayout = static_cast<Layout>(UINT32_MAX - 1);  // a transition raced with a write to the same memory
 
+void replace(Memory& memory, uint32_t cell, Version version, bool shared) {
+  memory.contents[cell] = version;
+  memory.shared[cell] = shared;
+  memory.seen_by[cell] = kNone;
+  ++memory.stores[cell];
+}
+
 void store_in(Memory& memory, const Cells& cells, const Dirty& write) {
-  Version& contents = memory.contents[write.cell];
-  if (!write.shares) contents = write.version;
-  else if (contents.base == write.version.base) contents.sum += write.addend;
-  else contents = {write.version.base, write.addend};
-  memory.settled[write.cell] = false;
-  for (const uint32_t rival : cells.rivals[write.cell]) {
-    memory.contents[rival] = {version::poison, 0};
-    memory.settled[rival] = false;
-  }
+  const Version old = memory.contents[write.cell];
+  Version version = write.version;
+  if (write.shares) version.sum = (old.base == version.base ? old.sum : 0) + write.addend;
+  replace(memory, write.cell, version, write.shares);
+  for (const uint32_t rival : cells.rivals[write.cell]) replace(memory, rival, {version::poison, 0}, false);
 }
 
 struct Execution {
@@ -27,7 +30,7 @@ struct Execution {
   bool hoards;
   const Event& event = timeline.events[index];
 
-  Version& line(uint32_t agent, uint32_t cell) const { return memory.lines[size_t{agent} * cells.count + cell]; }
+  Line& line(uint32_t agent, uint32_t cell) const { return memory.lines[size_t{agent} * cells.count + cell]; }
 
   bool in_layout(uint32_t cell) const {
     return !event.image || memory.layouts[cell] == layout_of_aspect(event.layout, cells.aspect_of[cell]);
@@ -43,7 +46,7 @@ struct Execution {
   Version find(uint32_t cell) const {
     if (event.lost) return {version::poison, 0};
     if (!in_layout(cell)) return {version::wrong_layout, 0};
-    return hoards && !event.through_semaphore ? line(event.agent, cell) : memory.contents[cell];
+    return hoards && !event.through_semaphore ? line(event.agent, cell).version : memory.contents[cell];
   }
 
   void read() const {
@@ -52,20 +55,23 @@ struct Execution {
       const uint32_t cell = event.cells[k];
       const Version expected = event.expected[k], found = find(cell);
       if (expected.base == version::undefined) continue;
-      if (found.base == expected.base && (event.shares || found.sum == expected.sum)) memory.settled[cell] = true;
-      else memory.mismatches.push_back({index, cell, expected, found});
+      const bool right = found.base == expected.base && (event.shares || found.sum == expected.sum);
+      if (!right) memory.mismatches.push_back({index, cell, expected, found});
+      if (right && memory.seen_by[cell] == kNone) memory.seen_by[cell] = index;
     }
   }
 
-  // Two writes may land in any order unless the first was made available, and seen or made visible to the second.
-  bool races(uint32_t cell, Version result) const {
-    for (const Dirty& other : memory.dirty) {
-      const Event& writer = timeline.events[other.event];
-      const bool same_pass = writer.pass == event.pass && writer.frame == event.frame;
-      if (!same_pass && same_memory(other.cell, cell) && !(other.shares && event.shares)) return true;
-    }
-    if (memory.settled[cell] || (event.shares && memory.contents[cell].base == result.base)) return false;
-    return !(line(event.agent, cell) == memory.contents[cell]);
+  bool in_this_pass(uint32_t other) const {
+    return timeline.events[other].pass == event.pass && timeline.events[other].frame == event.frame;
+  }
+
+  // Two writes may land in any order unless the first was made available, and made visible to the second or seen by another pass.
+  bool races(uint32_t cell) const {
+    for (const Dirty& other : memory.dirty)
+      if (!in_this_pass(other.event) && same_memory(other.cell, cell) && !(other.shares && event.shares)) return true;
+    if (memory.shared[cell] && event.shares) return false;
+    const bool seen = memory.seen_by[cell] != kNone && !in_this_pass(memory.seen_by[cell]);
+    return !seen && line(event.agent, cell).store != memory.stores[cell];
   }
 
   Dirty result_for(size_t k) const {
@@ -75,7 +81,7 @@ struct Execution {
     const auto spoil = [&](uint64_t base) { write.version = {base, 0}, write.shares = false; };
     if (event.lost) spoil(version::poison);
     if (!in_layout(cell)) spoil(version::wrong_layout);
-    if (hoards && races(cell, event.result[k])) spoil(version::torn);
+    if (hoards && races(cell)) spoil(version::torn);
     return write;
   }
 
@@ -87,8 +93,7 @@ struct Execution {
         continue;
       }
       std::erase_if(memory.dirty, [&](const Dirty& other) {
-        const Event& writer = timeline.events[other.event];
-        return other.cell == write.cell && writer.partial && writer.pass == event.pass && writer.frame == event.frame;
+        return other.cell == write.cell && timeline.events[other.event].partial && in_this_pass(other.event);
       });
       memory.dirty.push_back(write);
     }
@@ -104,7 +109,7 @@ struct Execution {
         continue;
       }
       store(write);
-      memory.settled[cell] = true;
+      memory.seen_by[cell] = index;
       drop_lines(event.dst_agents, cell);
     }
   }
@@ -134,13 +139,15 @@ struct Execution {
     if (from == to && from == layout) return;
     if (from == Layout::undefined) store({index, cell, {version::poison, 0}});
     else if (from != layout) store({index, cell, {version::wrong_layout, 0}});
+    else replace(memory, cell, memory.contents[cell], false);
+    for (uint32_t agent = 0; agent < timeline.agents.size(); ++agent) line(agent, cell).version = {version::wrong_layout, 0};
     const bool raced = std::any_of(memory.dirty.begin(), memory.dirty.end(), [&](const Dirty& write) { return same_memory(write.cell, cell); });
     layout = raced ? kTornLayout : to;
   }
 
   void drop_lines(AgentSet agents, uint32_t cell) const {
     for (uint32_t agent = 0; agents >> agent; ++agent) {
-      if ((agents >> agent) & 1) line(agent, cell) = memory.contents[cell];
+      if ((agents >> agent) & 1) line(agent, cell) = {memory.contents[cell], memory.stores[cell]};
       if (agent == 63) break;
     }
   }
@@ -162,7 +169,9 @@ Memory initial_memory(const Subject& subject, const Timeline& timeline) {
   Memory memory;
   memory.contents.assign(subject.cells.count, {version::poison, 0});
   memory.layouts.assign(subject.cells.count, Layout::undefined);
-  memory.settled.assign(subject.cells.count, true);
+  memory.stores.assign(subject.cells.count, 0);
+  memory.seen_by.assign(subject.cells.count, kNone);
+  memory.shared.assign(subject.cells.count, false);
   for (uint32_t r = 0; r < subject.cells.resources.size(); ++r) {
     const ResourceCells& resource = subject.cells.resources[r];
     for (uint32_t copy = 0; copy < resource.copies; ++copy)
@@ -171,7 +180,8 @@ Memory initial_memory(const Subject& subject, const Timeline& timeline) {
           memory.contents[physical_cell(resource, piece, 0, copy)] = subject.reference.initial[r][piece];
   }
   for (const auto& [cell, layout] : timeline.initial_layouts) memory.layouts[cell] = layout_of_aspect(layout, subject.cells.aspect_of[cell]);
-  for (size_t agent = 0; agent < timeline.agents.size(); ++agent) memory.lines.insert(memory.lines.end(), memory.contents.begin(), memory.contents.end());
+  for (size_t agent = 0; agent < timeline.agents.size(); ++agent)
+    for (const Version& version : memory.contents) memory.lines.push_back({version, 0});
   return memory;
 }
 

@@ -25,11 +25,20 @@ struct Mismatch {
   Version expected, found;
 };
 
+struct Line {
+  Version version;
+  uint32_t store = 0;       // which store to the cell it shows
+};
+
 struct Memory {
-  std::vector<Version> contents;   // by cell
-  std::vector<Layout> layouts;     // by cell
-  std::vector<bool> settled;       // by cell: some access has seen the contents as they are
-  std::vector<Version> lines;      // by agent, cell
+  // By cell.
+  std::vector<Version> contents;
+  std::vector<Layout> layouts;
+  std::vector<uint32_t> stores;    // how often contents changed
+  std::vector<uint32_t> seen_by;   // event that read the contents as they are; kNone: nobody
+  std::vector<bool> shared;        // contents come from a sharing write
+
+  std::vector<Line> lines;         // by agent, cell
   std::vector<Dirty> dirty;        // in the order executed
   std::vector<Mismatch> mismatches;
 };
