@@ -274,7 +274,8 @@ struct File {
   std::optional<Target> target;
   std::vector<Import> imports;
   std::vector<Declaration> declarations;
-  bool has_error = false;  // something did not parse: unknown names may be our fault
+  bool has_error = false;   // something did not parse
+  bool lost_names = false;  // ... and it was a declaration: unknown names may be our fault
 };
 
 }  // namespace rg::dsl::ast

@@ -34,14 +34,14 @@ void check_symbol(Checker& checker, uint32_t symbol) {
 void check_target(Checker& checker, const ast::File& file) {
   if (!file.target || file.target->api.empty()) return;
   const double version = file.target->version;
-  if (version < 1.25 || version > 1.45) checker.report(DiagnosticKind::UnsupportedTarget, file.target->span);
+  if (version < 1.25 || version > 1.45) checker.report(DiagnosticKind::UnsupportedTarget, file.target->span, {std::to_string(version).substr(0, 3)});
 }
 
 }  // namespace
 
 Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
   Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, false};
-  checker.trees_had_errors = std::any_of(modules.begin(), modules.end(), [](const Module& module) { return module.tree.has_error; });
+  checker.lost_names = std::any_of(modules.begin(), modules.end(), [](const Module& module) { return module.tree.lost_names; });
   checker.program.module = modules.back().name;
   collect_names(checker);
   for (const Module& module : modules) check_target(checker, module.tree);

@@ -217,10 +217,6 @@ void read_clear(Builder& at) {
   if (at.node.clear && at.ok) at.access.clear = clear_value(at.checker, at.scope, *at.node.clear, *at.resource, at.access.range.aspects);
 }
 
-void check_previous(Builder& at) {
-  if (at.access.age > 0 && at.node.verb != Verb::read) fail(at, DiagnosticKind::PreviousWritten, at.node.target.span, {spelled(at.node.target), at.resource->name});
-}
-
 uint32_t commit(PassScope& out, Access access) {
   limit_mips(out, access);
   out.pass.accesses.push_back(std::move(access));
@@ -270,7 +266,8 @@ std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScop
   at.access.covers = statement.covers;
   at.access.disjoint = statement.disjoint;
   check_options(at);
-  check_previous(at);
+  const bool reads = statement.verb == Verb::read || statement.readonly;
+  if (!reads && !check_writable(checker, scope, place, statement.target)) at.ok = false;
   read_role(at);
   check_direction(at);
   if (at.ok) set_aspects(at);

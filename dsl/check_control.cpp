@@ -44,7 +44,7 @@ void visit(Walker at, const ast::For& node) {
     return;
   }
   if (!count_unrolled(at, *last - *first, node.span)) return;
-  at.scope.bindings.push_back({node.variable.text, Binding::Kind::integer, 0, {}, false, {}});
+  at.scope.bindings.push_back({node.variable.text, Binding::Kind::integer, 0, {}, false, {}, node.variable.span});
   const size_t slot = at.scope.bindings.size() - 1;
   for (int64_t i = *first; i < *last; ++i) {
     at.scope.bindings[slot].value = i;
@@ -108,7 +108,7 @@ bool bind_place(Walker at, const ast::Parameter& parameter, const ast::Expr& arg
   const Resource& resource = at.scope.graph.resources[binding.place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
   if (is_image == (parameter.kind == ast::Parameter::Kind::image)) return true;
-  at.checker.report(DiagnosticKind::ArgumentKind, argument.span, {resource.name, is_image ? "image" : "buffer", std::string(parameter.name.text), is_image ? "buffer" : "image"});
+  at.checker.report(DiagnosticKind::ArgumentKind, argument.span, {resource.name, is_image ? "an image" : "a buffer", std::string(parameter.name.text), is_image ? "a buffer" : "an image"});
   return false;
 }
 
@@ -122,6 +122,7 @@ bool bind_params(Walker at, const ast::Expr& argument, Binding& binding) {
 
 bool bind_argument(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, Binding& binding) {
   binding.name = parameter.name.text;
+  binding.span = parameter.span;
   using Kind = ast::Parameter::Kind;
   if (parameter.kind == Kind::image || parameter.kind == Kind::buffer) return bind_place(at, parameter, argument, binding);
   if (parameter.kind == Kind::params) return bind_params(at, argument, binding);
@@ -243,7 +244,7 @@ void check_graph(Checker& checker, uint32_t symbol) {
   scope.module = checker.symbols[symbol].module;
   scope.graph.name = std::string(node.name.text);
   scope.graph.span = node.name.span;
-  scope.incomplete = node.has_error || checker.trees_had_errors;
+  scope.incomplete = node.has_error || checker.lost_names;
   declare_parameters(checker, scope, node);
   walk({checker, scope, Phase::resources}, node.body);
   scope.unrolled = 0;

@@ -215,6 +215,21 @@ const char* why_maybe(const Pass& pass) {
   return "it keeps what it does not touch; declare `clear` or `covers`";
 }
 
+// The first cell of the range that nothing wrote, if others were.
+std::string first_missing(const Walk& walk, const Access& access) {
+  const Resource& image = walk.graph.resources[access.resource];
+  const Tracked& tracked = walk.tracked[access.resource.value];
+  if (image.kind == ResourceKind::buffer) return tracked.bytes.empty() ? "" : "a part";
+  uint32_t missing = UINT32_MAX;
+  if (tracked.cells.empty()) return {};
+  each_cell(image, access.range, [&](uint32_t cell) {
+    if (!cell_defined(walk, tracked, &tracked.cells[cell], {})) missing = cell;
+    return missing == UINT32_MAX;
+  });
+  if (missing == UINT32_MAX) return {};
+  return "mip " + std::to_string(missing / image.layers % image.mips) + ", layer " + std::to_string(missing % image.layers);
+}
+
 void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& diagnostic) {
   const Resource& resource = walk.graph.resources[access.resource];
   const Tracked& tracked = walk.tracked[access.resource.value];
@@ -223,15 +238,24 @@ void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& 
     diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
     return;
   }
+  if (const std::string missing = first_missing(walk, access); !missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
   if (const Pass* later = find_later_writer(walk, pass + 1, access.resource)) diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
   diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
+}
+
+const char* way_out(const Pass& pass, const Access& access) {
+  if (access.mode == Mode::atomic) return "`clear`";
+  const bool draws = access.role == Role::color || access.role == Role::depth || access.role == Role::stencil;
+  return draws || pass.dispatch.kind == DispatchKind::indirect ? "`clear` or `covers`" : "`clear`, `covers` or `write`";
 }
 
 void report(Walk& walk, uint32_t pass, const Access& access) {
   if (walk.reported[access.resource.value]) return;
   walk.reported[access.resource.value] = true;
   const Resource& resource = walk.graph.resources[access.resource];
-  Diagnostic diagnostic(DiagnosticKind::ReadBeforeWrite, access.span, {walk.graph.passes.rows[pass].name, resource.name});
+  const std::string& name = walk.graph.passes.rows[pass].name;
+  Diagnostic diagnostic(DiagnosticKind::ReadBeforeWrite, access.span, {name, resource.name});
+  if (access.mode != Mode::read) diagnostic = {DiagnosticKind::KeepsBeforeWrite, access.span, {name, resource.name, way_out(walk.graph.passes.rows[pass], access)}};
   explain(walk, pass, access, diagnostic);
   walk.checker.diagnostics.report(std::move(diagnostic));
 }

@@ -84,7 +84,7 @@ std::vector<std::string_view> names_of_kind(const Checker& checker, uint32_t mod
 }
 
 void report_unknown(Checker& checker, uint32_t module, std::string_view name, Span span, SymbolKind kind) {
-  if (checker.trees_had_errors) return;  // perhaps declared in what did not parse
+  if (checker.lost_names) return;  // perhaps declared in what did not parse
   Diagnostic diagnostic(DiagnosticKind::UnknownName, span, {describe(kind), std::string(name)});
   const std::string guess = closest(name, names_of_kind(checker, module, kind));
   if (!guess.empty()) diagnostic.fix(span, guess);
@@ -95,7 +95,7 @@ bool fits_kind(Checker& checker, uint32_t symbol, Span span, SymbolKind kind) {
   const Symbol& found = checker.symbols[symbol];
   checker.used[symbol] = true;
   if (found.kind == kind) return true;
-  checker.report(DiagnosticKind::WrongKindOfName, span, {std::string(found.name.text), describe(found.kind), describe(kind)})
+  checker.report(DiagnosticKind::WrongKindOfName, span, {std::string(found.name.text), with_article(describe(found.kind)), with_article(describe(kind))})
       .note(DiagnosticKind::DeclaredHere, found.name.span, {std::string(found.name.text)});
   return false;
 }
@@ -149,12 +149,24 @@ const char* describe(SymbolKind kind) {
   return kNames[static_cast<size_t>(kind)];
 }
 
+std::string with_article(std::string_view noun) {
+  const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun[0]) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + std::string(noun);
+}
+
 std::string spelled(const ast::Expr& expr) {
   switch (expr.kind) {
     case ast::ExprKind::name: return std::string(expr.text);
     case ast::ExprKind::member: return spelled(expr.operands[0]) + "." + std::string(expr.text);
-    case ast::ExprKind::index: return spelled(expr.operands[0]) + "[...]";
-    case ast::ExprKind::call: return spelled(expr.operands[0]) + "(...)";
+    case ast::ExprKind::integer:
+    case ast::ExprKind::real:
+    case ast::ExprKind::dimensions: return std::string(expr.text);
+    case ast::ExprKind::index: return spelled(expr.operands[0]) + "[" + spelled(expr.operands[1]) + "]";
+    case ast::ExprKind::call: {
+      std::string arguments;
+      for (size_t i = 1; i < expr.operands.size(); ++i) arguments += (i > 1 ? ", " : "") + spelled(expr.operands[i]);
+      return spelled(expr.operands[0]) + "(" + arguments + ")";
+    }
     default: return "...";
   }
 }
@@ -183,7 +195,7 @@ std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast
   if (expr.kind == ast::ExprKind::error) return std::nullopt;
   if (expr.kind == ast::ExprKind::name) return find_plain(checker, module, expr.text, expr.span, kind);
   if (expr.kind == ast::ExprKind::member) return find_qualified(checker, module, expr, kind);
-  checker.report(DiagnosticKind::NotAName, expr.span, {describe(kind)});
+  checker.report(DiagnosticKind::NotAName, expr.span, {with_article(describe(kind))});
   return std::nullopt;
 }
 

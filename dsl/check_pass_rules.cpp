@@ -75,7 +75,7 @@ bool check_role(const Rules& rules, const Access& access) {
   const Resource& resource = rules.resource(access);
   const bool image = resource.kind == ResourceKind::image;
   if (!(image ? of_images(access.role) : of_buffers(access.role))) {
-    rules.checker.report(DiagnosticKind::RoleOfKind, access.span, {resource.name, image ? "image" : "buffer", word_of(access.role)})
+    rules.checker.report(DiagnosticKind::RoleOfKind, access.span, {resource.name, image ? "an image" : "a buffer", word_of(access.role)})
         .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
     return false;
   }

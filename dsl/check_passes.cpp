@@ -96,7 +96,7 @@ std::optional<uint32_t> add_indirect(Builder& at, const ast::Expr& expr, uint32_
   const Place place = find_place(at.checker, at.scope, expr);
   if (!place.ok()) return at.out.dropped = true, std::nullopt;
   const Resource& buffer = at.scope.graph.resources[place.resource];
-  if (buffer.kind != ResourceKind::buffer) return fail(at, DiagnosticKind::RoleOfKind, expr.span, {buffer.name, "image", "indirect"}), std::nullopt;
+  if (buffer.kind != ResourceKind::buffer) return fail(at, DiagnosticKind::RoleOfKind, expr.span, {buffer.name, "an image", "indirect"}), std::nullopt;
   const bool simple = !buffer.element.record.valid();
   if (!simple && buffer.stride < bytes) return fail(at, DiagnosticKind::IndirectTooSmall, expr.span, {buffer.name, std::to_string(buffer.stride), std::to_string(bytes)}), std::nullopt;
   return add_plain_access(at.scope, at.out, place, Mode::read, Role::indirect);
@@ -185,7 +185,7 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back(bound->params);
   const auto found = at.scope.params.find(name);
   if (found != at.scope.params.end()) return at.out.pass.params.push_back(found->second);
-  if (at.scope.failed.count(name) || at.checker.trees_had_errors) return void(at.out.dropped = true);
+  if (at.scope.failed.count(name) || at.checker.lost_names) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
   for (const Params& params : at.scope.graph.params)
     if (!params.pass.valid()) candidates.push_back(params.name);
@@ -205,7 +205,7 @@ void read_after(Builder& at, const ast::Expr& value) {
   }
   const auto found = at.scope.passes.find(name);
   if (found != at.scope.passes.end()) return at.out.pass.after.push_back(found->second);
-  if (at.checker.trees_had_errors || at.scope.failed.count("pass " + name)) return void(at.out.dropped = true);
+  if (at.checker.lost_names || at.scope.failed.count("pass " + name)) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
   for (const Pass& pass : at.scope.graph.passes) candidates.push_back(pass.name);
   Diagnostic diagnostic(DiagnosticKind::UnknownEarlierPass, value.span, {name});

@@ -46,7 +46,7 @@ std::optional<ResourceId> lookup(const GraphScope& scope, const std::string& nam
 
 void report_unknown(Walk walk, const Expr& expr, const std::string& name) {
   walk.scope.incomplete = true;
-  if (walk.checker.trees_had_errors || walk.scope.failed.count(walk.scope.prefix + name)) return;
+  if (walk.checker.lost_names || walk.scope.failed.count(walk.scope.prefix + name)) return;
   std::vector<std::string_view> candidates;
   for (const Resource& resource : walk.scope.graph.resources) candidates.push_back(resource.name);
   for (const Binding& binding : walk.scope.bindings)
@@ -63,6 +63,7 @@ Place find_root(Walk walk, const Expr& expr) {
     Place place = binding->place;
     place.span = expr.span;
     place.default_name = std::string(binding->name);
+    if (!binding->writable) place.read_only = binding;
     return place;
   }
   const std::string name = walk.scope.prefix + std::string(expr.text);
@@ -75,7 +76,7 @@ Place find_root(Walk walk, const Expr& expr) {
   if (const auto symbol = peek_symbol(walk.checker, walk.scope.module, expr)) {
     walk.scope.incomplete = true;
     const Symbol& found = walk.checker.symbols[*symbol];
-    walk.checker.report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(expr.text), describe(found.kind), "resource"})
+    walk.checker.report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(expr.text), with_article(describe(found.kind)), "a resource"})
         .note(DiagnosticKind::DeclaredHere, found.name.span, {std::string(expr.text)});
     return {};
   }
@@ -232,7 +233,7 @@ Place called_place(Walk walk, const Expr& call) {
   const Resource& resource = walk.scope.graph.resources[place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
   const bool fits = part->name == "prev" || part->of_images == is_image;
-  if (!fits) return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {resource.name, is_image ? "image" : "buffer", std::string(part->name)});
+  if (!fits) return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {resource.name, is_image ? "an image" : "a buffer", std::string(part->name)});
   if (part->name == "mip" || part->name == "mips") return take_mips(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "layer" || part->name == "layers") return take_layers(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "prev") return take_previous(walk, call, std::move(place));
@@ -287,6 +288,18 @@ Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr) {
   }
   if (place.ok()) scope.resource_used[place.resource.value] = true;
   return place;
+}
+
+bool check_writable(Checker& checker, GraphScope& scope, const Place& place, const ast::Expr& expr) {
+  if (place.age > 0) {
+    checker.report(DiagnosticKind::PreviousWritten, expr.span, {spelled(expr), scope.graph.resources[place.resource].name});
+    return false;
+  }
+  if (!place.read_only) return true;
+  checker.report(DiagnosticKind::ReadOnlyParameter, expr.span, {std::string(place.read_only->name)})
+      .note(DiagnosticKind::DeclaredHere, place.read_only->span, {std::string(place.read_only->name)})
+      .fix({place.read_only->span.file, place.read_only->span.begin, place.read_only->span.begin}, "inout ");
+  return false;
 }
 
 Value size_of(Checker& checker, GraphScope& scope, const Place& place) {

@@ -74,7 +74,7 @@ struct Checker {
   std::vector<bool> used;                                                    // by symbol
   std::unordered_map<NodeKey, ExprId, NodeHash> nodes;                       // equal expressions are one row
   std::unordered_map<std::string, Span> public_names;                        // structs and constants: shaders and C++ see them unqualified
-  bool trees_had_errors = false;  // a name that is not found may be in what did not parse
+  bool lost_names = false;  // a name that is not found may be in what did not parse
 
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
     return diagnostics.report(kind, span, std::move(arguments));
@@ -83,12 +83,14 @@ struct Checker {
 
 // ---- places -----------------------------------------------------------------------------------------------------
 
+struct Binding;
 struct Place {  // `bloom.mip(i).layer(0)` resolved
   ResourceId resource;
   Range range;
   uint32_t age = 0;
   std::string default_name;
   Span span;
+  const Binding* read_only = nullptr;  // the technique's parameter it came through, if that may only be read
   bool ok() const { return resource.valid(); }
 };
 
@@ -99,6 +101,7 @@ struct Binding {  // of a loop variable or a technique's parameter
   Place place;
   bool writable = true;
   ParamsId params;
+  Span span;
 };
 
 // The graph that is being built, and where in it we are.
@@ -131,6 +134,7 @@ std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast
 std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, const ast::Expr& expr);
 std::string closest(std::string_view word, const std::vector<std::string_view>& candidates);
 std::string spelled(const ast::Expr& expr);
+std::string with_article(std::string_view noun);  // "an image"
 // Reports a repeated name with a note at the first.
 void report_duplicate(Checker& checker, const ast::Name& name, Span first);
 
@@ -172,6 +176,8 @@ uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
 
 // ---- check_places.cpp -------------------------------------------------------------------------------------------
 Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr);
+// Reports a place that may not be written: an earlier frame's, or a technique's parameter without `inout`.
+bool check_writable(Checker& checker, GraphScope& scope, const Place& place, const ast::Expr& expr);
 // Silent probe: whether `expr` begins with the name of a resource.
 bool names_resource(const GraphScope& scope, const ast::Expr& expr);
 Value size_of(Checker& checker, GraphScope& scope, const Place& place);

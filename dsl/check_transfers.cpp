@@ -27,7 +27,7 @@ bool kinds_fit(Checker& checker, const GraphScope& scope, const TransferWord& wo
   const bool wants_image = word.kind == TransferKind::clear || word.kind == TransferKind::blit || word.kind == TransferKind::resolve;
   const bool wants_buffer = word.kind == TransferKind::fill || word.kind == TransferKind::update;
   if (!(wants_image && !image) && !(wants_buffer && image)) return true;
-  checker.report(DiagnosticKind::TransferOfKind, span, {std::string(word.word), image ? "image" : "buffer", resource.name})
+  checker.report(DiagnosticKind::TransferOfKind, span, {std::string(word.word), image ? "an image" : "a buffer", resource.name})
       .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
   return false;
 }
@@ -76,10 +76,7 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
 void drop(GraphScope& scope, PassScope& out) { out.dropped = scope.incomplete = true; }
 
 void finish(Checker& checker, GraphScope& scope, PassScope& out, const TransferWord& word, const ast::TransferStatement& node, Transfer transfer, const Place& dst) {
-  if (dst.age > 0) {
-    checker.report(DiagnosticKind::PreviousWritten, dst.span, {spelled(*node.dst), scope.graph.resources[dst.resource].name});
-    return drop(scope, out);
-  }
+  if (!check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
   transfer.dst = add_plain_access(scope, out, dst, Mode::write, word.dst);
   const Access& access = out.pass.accesses[transfer.dst];
   if (node.value) transfer.value = clear_value(checker, scope, *node.value, scope.graph.resources[dst.resource], access.range.aspects);

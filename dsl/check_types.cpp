@@ -25,7 +25,7 @@ const NamedType* find_type(std::string_view name) {
 }
 
 void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& name) {
-  if (checker.trees_had_errors) return;
+  if (checker.lost_names) return;
   std::vector<std::string_view> candidates;
   for (const NamedType& type : kTypes) candidates.push_back(type.name);
   for (const Symbol& symbol : checker.symbols)

@@ -159,12 +159,25 @@ Value part_of(Evaluator& at, const ast::Expr& expr, const Value& base) {
   return error_value();
 }
 
+// A name that means nothing else: perhaps a module.
+bool is_unknown_module(const Evaluator& at, const ast::Expr& owner) {
+  if (owner.kind != ExprKind::name || at.checker.scopes[at.module].count(owner.text)) return false;
+  if (!at.scope) return true;
+  const auto& bindings = at.scope->bindings;
+  const bool bound = std::any_of(bindings.begin(), bindings.end(), [&](const Binding& binding) { return binding.name == owner.text; });
+  return !bound && !at.scope->failed.count(at.scope->prefix + std::string(owner.text));
+}
+
 Value member(Evaluator& at, const ast::Expr& expr) {
   if (at.scope && names_resource(*at.scope, expr)) {
     const bool part = expr.text == "width" || expr.text == "height" || expr.text == "area" || expr.text == "x" || expr.text == "y" || expr.text == "z";
     if (!part) return size_of(at.checker, *at.scope, find_place(at.checker, *at.scope, expr));
   } else if (const auto symbol = peek_symbol(at.checker, at.module, expr)) {
     return from_symbol(at, *symbol, expr);
+  }
+  if (is_unknown_module(at, expr.operands[0])) {
+    find_symbol(at.checker, at.module, expr, SymbolKind::constant);
+    return error_value();
   }
   return part_of(at, expr, evaluate(at, expr.operands[0]));
 }
@@ -248,13 +261,13 @@ Value from_symbol(Evaluator& at, uint32_t symbol, const ast::Expr& expr) {
   const Symbol& found = at.checker.symbols[symbol];
   if (found.kind == SymbolKind::constant) return constant_value(at.checker, symbol);
   if (found.kind == SymbolKind::extent) return extent_value(at.checker, symbol);
-  at.checker.report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(found.name.text), describe(found.kind), "number or size"})
+  at.checker.report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(found.name.text), with_article(describe(found.kind)), "a number or a size"})
       .note(DiagnosticKind::DeclaredHere, found.name.span, {std::string(found.name.text)});
   return error_value();
 }
 
 void report_unknown_value(Evaluator& at, const ast::Expr& expr) {
-  if (at.checker.trees_had_errors) return;
+  if (at.checker.lost_names) return;
   std::vector<std::string_view> names;
   for (const Symbol& symbol : at.checker.symbols) {
     const bool usable = symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::extent;

@@ -103,6 +103,22 @@ void split_lines(Formatter& at) {
   }
 }
 
+bool is_blank(const Line& line) { return !line.is_raw && line.tokens.empty() && line.comment.empty(); }
+bool ends_open(const Line& line) { return !line.tokens.empty() && line.tokens.back().kind == TokenKind::left_brace; }
+bool starts_closed(const Line& line) { return !line.tokens.empty() && line.tokens[0].kind == TokenKind::right_brace; }
+
+// One blank line at most, none at either end of a block or of the file.
+void drop_blank_lines(Formatter& at) {
+  std::vector<Line> kept;
+  for (Line& line : at.lines) {
+    if (is_blank(line) && (kept.empty() || is_blank(kept.back()) || ends_open(kept.back()))) continue;
+    if (starts_closed(line) && !kept.empty() && is_blank(kept.back())) kept.pop_back();
+    kept.push_back(std::move(line));
+  }
+  while (!kept.empty() && is_blank(kept.back())) kept.pop_back();
+  at.lines = std::move(kept);
+}
+
 // ---- the gap between two tokens ---------------------------------------------------------------------------------
 
 bool is_operator(TokenKind kind) {
@@ -130,6 +146,12 @@ bool spaced_colon(const Formatter& at, const Line& line, size_t index) {
          });
 }
 
+// Settings and statements that share a line may stand two blanks apart.
+bool separates(const Line& line, size_t index) {
+  if (line.context == Context::fields) return true;
+  return std::any_of(line.tokens.begin(), line.tokens.begin() + static_cast<long>(index), [](const Token& token) { return token.kind == TokenKind::left_brace; });
+}
+
 size_t gap(const Formatter& at, const Line& line, size_t index) {
   const Token &left = line.tokens[index - 1], &right = line.tokens[index];
   const size_t source = right.begin - left.end;
@@ -143,7 +165,7 @@ size_t gap(const Formatter& at, const Line& line, size_t index) {
   if (is_operator(a) || is_operator(b) || a == TokenKind::colon) return 1;
   if (opens(b)) return std::min<size_t>(source, 1);
   if (a == TokenKind::minus || b == TokenKind::minus) return std::min<size_t>(source, 1);  // unary or binary: as written
-  return std::min<size_t>(source, 2);
+  return std::min<size_t>(source, separates(line, index) ? 2 : 1);
 }
 
 // ---- one line ---------------------------------------------------------------------------------------------------
@@ -227,7 +249,6 @@ void lay_out_lines(Formatter& at) {
 }
 
 bool has_trailing_comment(const Line& line) { return !line.is_raw && !line.tokens.empty() && !line.comment.empty(); }
-bool is_blank(const Line& line) { return line.tokens.empty() && line.comment.empty(); }
 
 // Trailing comments line up between blank lines.
 void add_comments(Formatter& at) {
@@ -245,20 +266,17 @@ void add_comments(Formatter& at) {
   }
 }
 
+std::string text_of_line(const Line& line) {
+  if (line.is_raw) return std::string(trim_right(line.raw));
+  if (!line.tokens.empty()) return line.code;
+  if (line.comment.empty()) return {};
+  return std::string(line.depth * kIndent + (line.continued ? kContinuation : 0), ' ') + std::string(line.comment);
+}
+
 std::string join(const Formatter& at) {
   std::string out;
-  bool blank = true;  // none at the start
-  for (const Line& line : at.lines) {
-    std::string code = line.is_raw ? std::string(trim_right(line.raw)) : line.code;
-    if (!line.is_raw && line.tokens.empty() && !line.comment.empty()) code = std::string(line.depth * kIndent + (line.continued ? kContinuation : 0), ' ') + std::string(line.comment);
-    const bool closing = !line.tokens.empty() && line.tokens[0].kind == TokenKind::right_brace;
-    if (code.empty() && blank) continue;
-    if (closing && out.size() > 1 && out.substr(out.size() - 2) == "\n\n") out.pop_back();
-    out += code + "\n";
-    blank = code.empty();
-  }
-  while (out.size() > 1 && out.substr(out.size() - 2) == "\n\n") out.pop_back();
-  return out == "\n" ? "" : out;
+  for (const Line& line : at.lines) out += text_of_line(line) + "\n";
+  return out;
 }
 
 bool same_tokens(FileId file, std::string_view a, std::string_view b) {
@@ -276,6 +294,7 @@ std::optional<std::string> format(FileId file, std::string_view text, Diagnostic
   for (const Diagnostic& diagnostic : found.rows()) diagnostics.report(diagnostic);
   if (found.has_errors()) return std::nullopt;
   split_lines(at);
+  drop_blank_lines(at);
   lay_out_lines(at);
   add_comments(at);
   std::string out = join(at);

@@ -33,7 +33,7 @@ std::optional<std::string> read_text(Loader& loader, const std::string& path, Sp
   auto text = loader.read(loader.root_folder + path, why);
   if (text && text->size() > kMaxFileBytes) text.reset(), why = "it is larger than 64 MiB";
   if (text && text->find('\0') != std::string::npos) text.reset(), why = "it is not text";
-  if (!text) loader.diagnostics.report(DiagnosticKind::FileNotReadable, span, {loader.root_folder + path, why});
+  if (!text) loader.diagnostics.report(DiagnosticKind::FileNotReadable, span, {span.file.valid() ? path : loader.root_folder + path, why});
   return text;
 }
 
@@ -67,11 +67,11 @@ void load_imports(Loader& loader, Module& module, uint32_t depth) {
   for (const ast::Import& node : module.tree.imports) {
     if (depth >= kMaxDepth) {
       loader.diagnostics.report(DiagnosticKind::ImportsTooDeep, node.span, {std::to_string(kMaxDepth)});
-      module.tree.has_error = true;
+      module.tree.lost_names = true;
       return;
     }
     const auto imported = load_import(loader, node, depth + 1);
-    if (!imported) module.tree.has_error = true;
+    if (!imported) module.tree.lost_names = true;
     else if (std::find(module.imports.begin(), module.imports.end(), *imported) != module.imports.end())
       loader.diagnostics.report(DiagnosticKind::RepeatedImport, node.span, {std::string(node.path)});
     else module.imports.push_back(*imported);

@@ -120,7 +120,11 @@ TokenKind take_string(Lexer& lexer, uint32_t begin) {
 
 // Whole runs, so that a pasted word of another script is one mistake.
 TokenKind take_invalid(Lexer& lexer, uint32_t begin) {
-  const auto fits = [](char c) { return is_word(c) || is_blank(c) || c == '\n' || c == '"' || c == '\0'; };
+  const bool foreign = static_cast<unsigned char>(lexer.peek()) >= 0x80;  // a word in another script
+  const auto fits = [&](char c) {
+    if (foreign && is_word(c)) return false; 
+    return is_word(c) || is_blank(c) || c == '\n' || c == '"' || c == '\0';
+  };
   const auto punctuation = [&] {
     for (const Spelling& spelling : kPunctuation)
       if (spelling.text[0] == lexer.peek()) return true;

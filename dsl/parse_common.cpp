@@ -26,19 +26,18 @@ std::string found(const Parser& parser) {
   return token.kind == TokenKind::string ? std::string(shown) : "`" + std::string(shown) + "`";
 }
 
+// Insertions, deletions, substitutions and swaps of neighbours count one each (optimal string alignment).
 uint32_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<uint32_t> row(b.size() + 1);
-  for (uint32_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (uint32_t i = 1; i <= a.size(); ++i) {
-    uint32_t diagonal = row[0];
-    row[0] = i;
-    for (uint32_t j = 1; j <= b.size(); ++j) {
-      const uint32_t substitute = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substitute});
+  std::vector<std::vector<uint32_t>> cost(a.size() + 1, std::vector<uint32_t>(b.size() + 1));
+  for (uint32_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
+  for (uint32_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
+  for (size_t i = 1; i <= a.size(); ++i)
+    for (size_t j = 1; j <= b.size(); ++j) {
+      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
     }
-  }
-  return row[b.size()];
+  return cost[a.size()][b.size()];
 }
 
 }  // namespace
@@ -86,8 +85,17 @@ ast::Name Parser::take_name() {
   return name;
 }
 
+// A new line that begins like a statement is one, not the rest of the last.
+bool Parser::next_begins() const {
+  if (!peek().starts_line || !is(TokenKind::identifier)) return false;
+  const bool keyword = begins_statement(word()) || begins_item(word()) || begins_declaration(word());
+  const Token& next = peek(1);
+  const bool operand = next.kind == TokenKind::identifier || next.kind == TokenKind::string || next.kind == TokenKind::integer || next.kind == TokenKind::left_brace;
+  return keyword && (operand || next.starts_line);
+}
+
 ast::Name Parser::expect_name(const char* what) {
-  if (is(TokenKind::identifier)) return take_name();
+  if (is(TokenKind::identifier) && !next_begins()) return take_name();
   expected(what);
   return {{}, here()};
 }
@@ -142,6 +150,7 @@ bool starts_outer(const Parser& parser, Level level) {
 }
 
 void resynchronise(Parser& parser, Level level) {
+  parser.lost_names |= level != Level::pass;
   uint32_t depth = 0;
   for (; !parser.done(); parser.take()) {
     if (parser.is(TokenKind::left_brace)) ++depth;

@@ -110,9 +110,14 @@ Expr parse_suffix(Parser& parser, Expr base) {
   return expr;
 }
 
-Expr parse_suffixes(Parser& parser, Expr expr) {
+// Of a place only members are called: what follows `clear NAME` in parentheses is the value.
+Expr parse_suffixes(Parser& parser, Expr expr, bool calls_names) {
   uint32_t length = 0;
-  while (!parser.silent && (parser.is(TokenKind::dot) || parser.is(TokenKind::left_bracket) || parser.is(TokenKind::left_paren))) {
+  const auto follows = [&] {
+    if (parser.is(TokenKind::left_paren)) return calls_names || expr.kind == ExprKind::member;
+    return parser.is(TokenKind::dot) || parser.is(TokenKind::left_bracket);
+  };
+  while (!parser.silent && follows()) {
     if (++length > kMaxNesting) {
       parser.complain({DiagnosticKind::NestingTooDeep, parser.here(), {std::to_string(kMaxNesting)}});
       break;
@@ -122,14 +127,25 @@ Expr parse_suffixes(Parser& parser, Expr expr) {
   return expr;
 }
 
+Expr parse_named(Parser& parser, const char* what, bool calls_names) {
+  Expr expr = leaf(parser, ExprKind::name);
+  if (!parser.is(TokenKind::identifier) || parser.next_begins()) {
+    parser.expected(what);
+    expr.kind = ExprKind::error;
+    return expr;
+  }
+  parser.take();
+  return parse_suffixes(parser, std::move(expr), calls_names);
+}
+
 Expr parse_primary(Parser& parser, const char* what) {
   switch (parser.peek().kind) {
     case TokenKind::integer: return parse_integer(parser);
     case TokenKind::real: return parse_real(parser);
     case TokenKind::dimensions: return parse_dimensions(parser);
-    case TokenKind::left_paren: return parse_suffixes(parser, parse_list(parser, TokenKind::right_paren));
+    case TokenKind::left_paren: return parse_suffixes(parser, parse_list(parser, TokenKind::right_paren), false);
     case TokenKind::left_bracket: return parse_list(parser, TokenKind::right_bracket);
-    default: return parse_place(parser, what);
+    default: return parse_named(parser, what, true);
   }
 }
 
@@ -168,16 +184,7 @@ Expr parse_term(Parser& parser, const char* what) {
 
 }  // namespace
 
-Expr parse_place(Parser& parser, const char* what) {
-  Expr expr = leaf(parser, ExprKind::name);
-  if (!parser.is(TokenKind::identifier)) {
-    parser.expected(what);
-    expr.kind = ExprKind::error;
-    return expr;
-  }
-  parser.take();
-  return parse_suffixes(parser, std::move(expr));
-}
+Expr parse_place(Parser& parser, const char* what) { return parse_named(parser, what, false); }
 
 std::vector<Expr> parse_arguments(Parser& parser) {
   std::vector<Expr> arguments;

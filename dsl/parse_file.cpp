@@ -137,10 +137,12 @@ EngineSetDeclaration parse_engine_set(Parser& parser) {
 Parameter parse_surface(Parser& parser) {
   Parameter parameter;
   parameter.kind = Parameter::Kind::surface;
+  const uint32_t begin = parser.peek().begin;
   parser.take();
   parameter.name = parameter.surface.name = parser.expect_name("the name of the surface");
   parser.expect(TokenKind::colon);
   if (!parser.silent) parameter.surface = parse_image_type(parser, std::move(parameter.surface));
+  parameter.span = parser.since(begin);
   return parameter;
 }
 
@@ -220,7 +222,7 @@ Use parse_use(Parser& parser) {
     use.instance = parser.expect_name("a name");
     parser.take();
   }
-  Expr call = parse_place(parser, "a technique");
+  Expr call = parse_expression(parser, "a technique");
   if (call.kind == ExprKind::call) {
     use.technique = std::move(call.operands[0]);
     use.arguments.assign(std::make_move_iterator(call.operands.begin() + 1), std::make_move_iterator(call.operands.end()));
@@ -375,6 +377,7 @@ File parse(FileId file_id, std::string_view text, const Tokens& tokens, Diagnost
     if (parser.at == before) parser.take();
   }
   file.has_error = parser.any_error;
+  file.lost_names = parser.lost_names;
   return file;
 }
 

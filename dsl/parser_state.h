@@ -25,11 +25,13 @@ struct Parser {
   uint32_t nesting = 0;
   bool silent = false;
   bool any_error = false;
+  bool lost_names = false;  // a declaration was skipped
 
   const Token& peek(size_t ahead = 0) const { return tokens[std::min(at + ahead, tokens.size() - 1)]; }
   std::string_view word(size_t ahead = 0) const { return text_of(peek(ahead), text); }
   bool is(TokenKind kind, size_t ahead = 0) const { return peek(ahead).kind == kind; }
   bool is_word(std::string_view spelling, size_t ahead = 0) const { return is(TokenKind::identifier, ahead) && word(ahead) == spelling; }
+  bool next_begins() const;
   bool done() const { return is(TokenKind::end_of_file); }
   Span span(const Token& token) const { return {file, token.begin, token.end}; }
   Span here() const { return span(peek()); }
@@ -78,7 +80,7 @@ void close_block(Parser& parser, Span open);
 std::string closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 ast::Expr parse_expression(Parser& parser, const char* what = "an expression");
-ast::Expr parse_place(Parser& parser, const char* what);  // a name with `.members`, `[indices]` and `(calls)` behind it
+ast::Expr parse_place(Parser& parser, const char* what);  // a name with `.member`, `[index]` and `.member(call)` behind it
 std::vector<ast::Expr> parse_arguments(Parser& parser);   // `(a, b, c)`
 ast::TypeName parse_type(Parser& parser);
 struct SettingShape {  // of one setting: its word, the second word where it has one, how many words and numbers follow

@@ -1,0 +1,17 @@
+module transfers
+graph g(surface s: rgba8 4x4) {
+  image a : rgba8 4x4  //~ note[RG0202]: `a` is declared here
+  image b : rgba16f 4x4
+  image m : rgba8 4x4 samples 4
+  image n : r32f 4x4
+  buffer c : u32[16]  //~ note[RG0202]: `c` is declared here
+  pass p1 : transfer { clear c 0 }  //~ error[RG0359]: `clear` cannot work on a buffer, and `c` is one
+  pass p2 : transfer { fill a 0 }  //~ error[RG0359]: `fill` cannot work on an image, and `a` is one
+  pass p3 : compute { copy a -> b }  //~ error[RG0360]: `copy` belongs in a transfer pass
+  pass p4 : transfer { copy a -> a }  //~ error[RG0361]: `a` is source and destination at once
+  pass p5 : transfer { copy a -> b }  //~ error[RG0365]: a copy needs texels of one size and sample count: `a` is `rgba8`, `b` is `rgba16f`
+  pass p6 : transfer { resolve a -> s }  //~ error[RG0362]: a resolve goes from several samples to one: `a` has 1, `s` has 1
+  pass p7 : transfer { resolve m -> n }  //~ error[RG0363]: a resolve keeps the format: `m` is `rgba8`, `n` is `r32f`
+  pass p8 : raster { color s clear 0  resolve m -> s }  //~ error[RG0364]: `m` is no colour attachment of pass `p8`
+  pass p9 : raster { host { read a as copy_src } }  //~ error[RG0360]: `host` belongs in a transfer pass
+}

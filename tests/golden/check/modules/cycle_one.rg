@@ -1,0 +1,2 @@
+module cycle_one
+import "modules/cycle_two.rg"

@@ -1,0 +1,5 @@
+module broken
+graph frame(surface s: rgba8 4x4) {
+  pass p : compute { write a as storage } }
+  pass q : compute { write c as storage }
+}

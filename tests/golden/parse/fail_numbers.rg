@@ -1,0 +1,4 @@
+module broken
+const A = 99999999999999999999
+const B = 1e999
+const C = 99999999999999999999x4

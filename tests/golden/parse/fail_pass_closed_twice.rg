@@ -1,0 +1,8 @@
+module broken
+graph frame(surface s: rgba8 4x4) {
+  pass p : compute {
+    write a as storage }
+    write b as storage
+  }
+  pass q : compute { write c as storage }
+}
