@@ -1,6 +1,6 @@
 // Whole frames on a driver, with validation listening: results and silence.
 #include "tests/unit/device/fixture.h"
-#include "tests/unit/device/plans.h"
+#include "tests/unit/runtime/plans.h"
 
 namespace rg {
 namespace {

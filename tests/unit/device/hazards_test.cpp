@@ -1,7 +1,7 @@
 // Planted hazards: a correct frame, one row of its plan broken, and the validation layer must say so. If it stays silent, then its silence
 // about correct frames means nothing.
 #include "tests/unit/device/fixture.h"
-#include "tests/unit/device/plans.h"
+#include "tests/unit/runtime/plans.h"
 
 namespace rg {
 namespace {

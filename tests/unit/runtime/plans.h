@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "tests/unit/device/shaders.h"
+#include "tests/unit/runtime/shaders.h"
 #include "tests/unit/runtime/test_plan.h"
 
 namespace rg::test {
@@ -88,7 +88,7 @@ inline Tint tint() {
   TestPlan& p = t.plan;
   p.extents.push_back({"view", 2, {8, 4, 1}, {64, 64, 1}});
   const Index width = p.extent_axis(0), height = p.extent_axis(1);
-  const Index bytes = p.binary(ExprOp::mul, p.binary(ExprOp::mul, width, height), p.constant(4));
+  const Index area = p.binary(ExprOp::mul, width, height), bytes = p.binary(ExprOp::mul, area, p.constant(4));
   t.scene = p.image("scene", kRgba8, width, height, kColorAttachment | kSampled);
   t.final = p.image("final", kRgba8, width, height, kColorAttachment | kCopySrc);
   t.result = p.buffer("result", bytes, kCopyDst, Lifetime::readback);

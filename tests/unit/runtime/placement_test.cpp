@@ -1,0 +1,126 @@
+// Memory: what shares bytes, what hands them on, and what mips and ranges become at other extents.
+#include "tests/unit/runtime/null_fixture.h"
+#include "tests/unit/runtime/plans.h"
+
+namespace rg {
+namespace {
+
+using Placement = test::NullTest;
+
+TEST_F(Placement, AllowedPairsShareBytes) {
+  test::Aliased t = test::aliased();
+  GraphInstance graph = make(t.plan);
+  const MemoryReport memory = graph.memory();
+  EXPECT_EQ(memory.heap_bytes, 65536u);
+  EXPECT_EQ(memory.unaliased_bytes, 131072u);
+  EXPECT_EQ(memory.lower_bound_bytes, 65536u);
+  EXPECT_EQ(memory.host_bytes, 4u * 16384);  // two buffers, two frames in flight
+  EXPECT_EQ(memory.persistent_bytes, 0u);
+  const std::vector<PlacedResource> placed = graph.placements();
+  ASSERT_EQ(placed.size(), 6u);
+  EXPECT_EQ(placed[0].name, "a");
+  EXPECT_EQ(placed[0].offset, placed[1].offset);
+}
+
+TEST_F(Placement, PairsThatAreNotListedDoNot) {
+  test::Aliased t = test::aliased();
+  t.plan.alias_pairs.pop_back();  // b may not give its bytes back to a
+  GraphInstance graph = make(t.plan);
+  EXPECT_EQ(graph.memory().heap_bytes, 131072u);
+}
+
+TEST_F(Placement, HandOffsNameTheLastUsersOfTheBytes) {
+  test::Aliased t = test::aliased();
+  t.plan.image_barriers[2].src_stages = stage::none;  // b alone would wait for nobody
+  GraphInstance graph = make(t.plan);
+  const std::vector<std::string> barriers = test::calls(frame(graph), "vkCmdPipelineBarrier2");
+  // One memory barrier, and the same first scope in the barrier that discards.
+  EXPECT_EQ(barriers.at(2).substr(barriers[2].find('[')),
+            "[memory 0x100000000/0x0->0x800000000/0x1000][image2 0x100000000/0x0->0x800000000/0x1000 layout 0->7 aspects 1 mips 0+1 layers 0+1]");
+  GraphOptions options;
+  options.aliasing = false;
+  GraphInstance apart = make(t.plan, options);
+  EXPECT_EQ(test::calls(frame(apart), "vkCmdPipelineBarrier2").at(2).find("memory"), std::string::npos);
+}
+
+TEST_F(Placement, PoisonFillsWhatIsAcquired) {
+  test::Aliased t = test::aliased();
+  GraphOptions options;
+  options.poison = true;
+  GraphInstance graph = make(t.plan, options);
+  const std::string text = frame(graph);
+  const std::vector<std::string> clears = test::calls(text, "vkCmdClearColorImage");
+  ASSERT_EQ(clears.size(), 4u);
+  EXPECT_NE(clears[0].find("image1 7 0x7fc07fc0"), std::string::npos);
+  EXPECT_NE(clears[2].find("image2 7 0x7fc07fc0"), std::string::npos);
+  EXPECT_NE(text.find("layout 7->7"), std::string::npos);  // the plan's barrier starts from the fill
+}
+
+TEST_F(Placement, MipsAreClampedToTheFullChain) {
+  test::Mips t = test::mips();
+  GraphInstance graph = make(t.plan);
+  EXPECT_EQ(test::calls(frame(graph), "vkCmdClearColorImage").size(), 4u);
+  const int64_t extents[] = {3, 2, 1};
+  log.clear();
+  ASSERT_TRUE(graph.resize(extents));
+  EXPECT_NE(test::calls(log, "vkCreateImage ").at(0).find("3x2x1 mips 2 "), std::string::npos);
+  const std::string text = frame(graph);
+  EXPECT_EQ(test::calls(text, "vkCmdClearColorImage").size(), 2u);
+  EXPECT_EQ(test::calls(text, "vkCmdPipelineBarrier2").size(), 2u);
+}
+
+TEST_F(Placement, RangesAreCutAtTheLastMip) {
+  test::Mips t = test::mips();
+  t.plan.image_barriers[1].range.mips = 3;
+  GraphInstance graph = make(t.plan);
+  const int64_t extents[] = {4, 4, 1};
+  ASSERT_TRUE(graph.resize(extents));
+  EXPECT_NE(test::calls(frame(graph), "vkCmdPipelineBarrier2").at(1).find("mips 1+2"), std::string::npos);
+}
+
+TEST_F(Placement, ResizedStateLivesUntilItsFramesAreDone) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  GraphInstance graph = make(t.plan);
+  frame(graph);
+  const int64_t extents[] = {16, 16, 1};
+  log.clear();
+  ASSERT_TRUE(graph.resize(extents));
+  EXPECT_TRUE(test::calls(log, "vkDestroyImage").empty());
+  EXPECT_EQ(test::calls(frame(graph), "vkDestroyImage ").size(), 1u);  // a null device is done at once
+}
+
+TEST_F(Placement, TooLargeForTheDevice) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  t.plan.extents[0].maximum[0] = 100000;
+  GraphInstance graph = make(t.plan);
+  const int64_t extents[] = {20000, 4, 1};
+  EXPECT_EQ(test::message(graph.resize(extents)), "image `color`: a side of 20000 texels; this device allows 16384");
+}
+
+// ---- prologue -----------------------------------------------------------------------------------------------------
+
+TEST_F(Placement, PrologueClearsWhatTheFirstFrameReads) {
+  test::Counter t = test::counter();
+  ASSERT_TRUE(GraphInstance::create(device, t.plan.view(), {}));
+  EXPECT_EQ(test::calls(log, "vkCmdFillBuffer"), (std::vector<std::string>{"vkCmdFillBuffer commands1 buffer2 0 18446744073709551615 7"}));
+  EXPECT_EQ(test::calls(log, "vkCmdPipelineBarrier2").at(0), "vkCmdPipelineBarrier2 commands1 [memory 0x900000000/0x1000->0x800/0x400000000]");
+}
+
+TEST_F(Placement, PrologueGivesHistoryImagesTheirLayout) {
+  test::TestPlan p;
+  const Index side = p.constant(4), image = p.image("color", test::kRgba8, side, side, test::kCopyDst);
+  p.resources[image].lifetime = Lifetime::history, p.resources[image].copies = 3, p.resources[image].init = InitKind::clear;
+  p.entry.push_back({{image, 0}, {}, stage::copy, access::none, Layout::undefined, kNone, true});
+  p.entry.push_back({{image, 1}, {}, stage::fragment_shader, access::none, Layout::shader_read_only});
+  p.entry.push_back({{image, 2}, {}, stage::fragment_shader, access::none, Layout::shader_read_only});
+  ASSERT_TRUE(GraphInstance::create(device, p.view(), {}));
+  const std::vector<std::string> clears = test::calls(log, "vkCmdClearColorImage");
+  ASSERT_EQ(clears.size(), 2u);  // frame 0 is copy 0: the others are history
+  EXPECT_NE(clears[0].find("image3"), std::string::npos);
+  EXPECT_NE(clears[1].find("image2"), std::string::npos);
+  const std::string barrier = test::calls(log, "vkCmdPipelineBarrier2").at(1);
+  EXPECT_NE(barrier.find("[image3 0x800000000/0x1000->0x80/0x0 layout 7->5"), std::string::npos) << barrier;
+}
+
+}  // namespace
+}  // namespace rg

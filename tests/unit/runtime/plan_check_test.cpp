@@ -1,0 +1,61 @@
+// A plan that points outside itself is refused with the row that does.
+#include "runtime/plan_check.h"
+
+#include "tests/unit/runtime/null_fixture.h"
+#include "tests/unit/runtime/plans.h"
+
+namespace rg {
+namespace {
+
+template <class Break> std::string fault(Break&& break_plan) {
+  test::Tint t = test::tint();
+  break_plan(t.plan);
+  const Status status = check_plan(t.plan.view());
+  if (status) return "no error";
+  EXPECT_EQ(status.error().code, ErrorCode::invalid_plan);
+  return status.error().message;
+}
+
+TEST(PlanCheck, AcceptsWhatIsWhole) {
+  EXPECT_EQ(fault([](test::TestPlan&) {}), "no error");
+}
+
+TEST(PlanCheck, NamesTheRow) {
+  using P = test::TestPlan;
+  EXPECT_EQ(fault([](P& p) { p.base.version = 9; }), "plan `test` has version 9; this runtime runs version 1");
+  EXPECT_EQ(fault([](P& p) { p.exprs[2].a = 2; }), "plan `test`: expression 2: first operand");
+  EXPECT_EQ(fault([](P& p) { p.exprs[0].value = 3; }), "plan `test`: expression 0: extent");
+  EXPECT_EQ(fault([](P& p) { p.resources[1].width = 99; }), "plan `test`: resource 1: size");
+  EXPECT_EQ(fault([](P& p) { p.resources[0].samples = 3; }), "plan `test`: resource 0: samples");
+  EXPECT_EQ(fault([](P& p) { p.resources[0].lifetime = Lifetime::readback; }), "plan `test`: resource 0: only buffers are read back");
+  EXPECT_EQ(fault([](P& p) { p.resources[0].lifetime = Lifetime::imported; }), "plan `test`: resource 0: import slot");
+  EXPECT_EQ(fault([](P& p) { p.groups[1].image_count = 9; }), "plan `test`: group 1: image barriers");
+  EXPECT_EQ(fault([](P& p) { p.image_barriers[2].image.resource = 2; }), "plan `test`: image barrier 2: image");
+  EXPECT_EQ(fault([](P& p) { p.buffer_barriers[0].buffer.resource = kNone; }), "plan `test`: buffer barrier 0: buffer");
+  EXPECT_EQ(fault([](P& p) { p.acquires.push_back({0, 0, 0, 1, 0, 0}); }), "plan `test`: acquire 0: no release");
+  EXPECT_EQ(fault([](P& p) { p.renderings[0].color_count = 7; }), "plan `test`: rendering 0: colours");
+  EXPECT_EQ(fault([](P& p) { p.renderings[1].depth = 5; }), "plan `test`: rendering 1: depth or stencil");
+  EXPECT_EQ(fault([](P& p) { p.attachments[1].ref.resource = 2; }), "plan `test`: attachment 1: image");
+  EXPECT_EQ(fault([](P& p) { p.pipelines[0].shader_count = 3; }), "plan `test`: pipeline 0: shaders");
+  EXPECT_EQ(fault([](P& p) { p.pipeline_shaders[1] = 2; }), "plan `test`: pipeline shader 1: shader");
+  EXPECT_EQ(fault([](P& p) { p.bindings[0].sampler = 1; }), "plan `test`: binding 0: sampler");
+  EXPECT_EQ(fault([](P& p) { p.bindings[0].ref.resource = 2; }), "plan `test`: binding 0: image");
+  EXPECT_EQ(fault([](P& p) { p.transfers[0].dst.resource = 0; }), "plan `test`: transfer 0: target");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].pipeline = 1; }), "plan `test`: pass 1: pipeline");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].params_count = 1; }), "plan `test`: pass 1: parameter blocks");
+  EXPECT_EQ(fault([](P& p) { p.passes[0].kind = PassKind::compute; }), "plan `test`: pass 0: attachments outside a raster pass");
+  EXPECT_EQ(fault([](P& p) { p.steps[1].index = 17; }), "plan `test`: step 1: index");
+  EXPECT_EQ(fault([](P& p) { p.batches.push_back({3, 0, 0, 0, 0, 0, 0}); }), "plan `test`: batch 0: queue");
+}
+
+TEST(PlanCheck, SharedOperandsCostNothing) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  Index value = t.plan.constant(0);
+  for (int i = 0; i < 200; ++i) value = t.plan.binary(ExprOp::add, value, value);  // 2^200 paths
+  t.plan.resources[t.color].depth = value;
+  Device device = Device::null(nullptr);
+  EXPECT_TRUE(GraphInstance::create(device, t.plan.view(), {}));
+}
+
+}  // namespace
+}  // namespace rg
