@@ -62,7 +62,7 @@ struct Run {
   }
 
   void compare_end(Memory& memory, const Schedule& schedule, Caches caches) {
-    write_back_all(memory, subject.cells);
+    write_back(memory, subject.cells, static_cast<uint32_t>(timeline.events.size()));
     const uint32_t last = subject.options.frames - 1;
     for (uint32_t r = 0; r < subject.cells.resources.size(); ++r) {
       const ResourceCells& resource = subject.cells.resources[r];

@@ -50,7 +50,7 @@ struct Execution {
   }
 
   void read() const {
-    if (event.through_semaphore) write_back_all(memory, cells);
+    if (event.through_semaphore) write_back(memory, cells, index);
     for (size_t k = 0; k < event.cells.size(); ++k) {
       const uint32_t cell = event.cells[k];
       const Version expected = event.expected[k], found = find(cell);
@@ -195,9 +195,11 @@ void execute(Memory& memory, const Cells& cells, const Timeline& timeline, uint3
   }
 }
 
-void write_back_all(Memory& memory, const Cells& cells) {
-  for (const Dirty& write : memory.dirty) store_in(memory, cells, write);
-  memory.dirty.clear();
+void write_back(Memory& memory, const Cells& cells, uint32_t end) {
+  std::erase_if(memory.dirty, [&](const Dirty& write) {
+    if (write.event < end) store_in(memory, cells, write);
+    return write.event < end;
+  });
 }
 
 }  // namespace rg::machine

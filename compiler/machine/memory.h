@@ -45,7 +45,7 @@ struct Memory {
 
 Memory initial_memory(const Subject& subject, const Timeline& timeline);
 void execute(Memory& memory, const Cells& cells, const Timeline& timeline, uint32_t event, Caches caches);
-// What is in memory when the device is idle.
-void write_back_all(Memory& memory, const Cells& cells);
+// Writes of events before `end` reach memory, as they do when a semaphore or fence is signalled.
+void write_back(Memory& memory, const Cells& cells, uint32_t end);
 
 }  // namespace rg::machine
