@@ -74,7 +74,7 @@ std::string counted(size_t count, std::string_view noun, std::string_view plural
 
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates) {
   const std::string* best = nullptr;
-  size_t best_edits = std::max<size_t>(1, name.size() / 3) + 1;
+  size_t best_edits = 1 + (name.size() <= 3 ? 1 : std::max<size_t>(2, name.size() / 3));  // exclusive
   for (const std::string& candidate : candidates) {
     const size_t distance = edits(name, candidate);
     if (distance >= best_edits) continue;

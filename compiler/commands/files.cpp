@@ -155,7 +155,7 @@ bool commit(const std::vector<Replacement>& replacements, dsl::Diagnostics& diag
 bool is_file(const fs::path& path) {
   std::error_code ignored;
   const fs::file_status status = fs::symlink_status(path, ignored);
-  return fs::exists(status) && !fs::is_directory(status);
+  return fs::status_known(status) && fs::exists(status) && !fs::is_directory(status);
 }
 
 bool is_ours(const std::string& name, const std::string& old_text, const std::set<std::string>& manifest) {
