@@ -10,10 +10,13 @@ namespace {
 
 // The specification counts vkCmdFillBuffer to the clears, the validation layer to the copies: barriers that fills take part in name both
 // while it watches.
-Stages watched(const Context& context, Stages stages) { return context.device.validating && (stages & stage::clear) != 0 ? stages | stage::copy : stages; }
+Stages watched(const Context& context, Stages stages) {
+  return context.device.validating && (stages & stage::clear) != 0 ? stages | stage::copy : stages;
+}
 
 VkMemoryBarrier2 translate(const Context& context, const MemoryBarrier& in) {
-  return {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, watched(context, in.src_stages), in.src_accesses, watched(context, in.dst_stages), in.dst_accesses};
+  return {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,        watched(context, in.src_stages), in.src_accesses,
+          watched(context, in.dst_stages),    in.dst_accesses};
 }
 
 VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkImageSubresourceRange& range) {
@@ -58,7 +61,10 @@ uint32_t group_period(const Context& context, const Sized& sized, const BarrierG
 
 // What the placement adds to the plan's barriers; see alias.h.
 struct Patches {
-  struct Scope { Stages stages = 0; Accesses accesses = 0; };
+  struct Scope {
+    Stages stages = 0;
+    Accesses accesses = 0;
+  };
   std::vector<Scope> images;                 // by Plan::image_barriers
   std::vector<const MemoryBarrier*> groups;  // by Plan::groups; null: nothing
 };
@@ -67,7 +73,8 @@ Patches make_patches(const Plan& plan, const alias::HandOffs& hand_offs) {
   Patches patches{std::vector<Patches::Scope>(plan.image_barriers.size()), std::vector<const MemoryBarrier*>(plan.groups.size())};
   for (const alias::GroupPatch& patch : hand_offs.groups) patches.groups[patch.group] = &patch.memory;
   for (const alias::ImagePatch& patch : hand_offs.images)
-    for (Index i = patch.first; i < patch.first + patch.count; ++i) patches.images[i].stages |= patch.src_stages, patches.images[i].accesses |= patch.src_accesses;
+    for (Index i = patch.first; i < patch.first + patch.count; ++i)
+      patches.images[i].stages |= patch.src_stages, patches.images[i].accesses |= patch.src_accesses;
   return patches;
 }
 
@@ -89,7 +96,8 @@ void add_buffers(const Context& context, const Sized& sized, const BarrierGroup&
     const ByteRange bytes = byte_range(context, sized, barrier.bytes);
     if (bytes.size == 0) continue;
     const bool from_engine = imported(sized, barrier.buffer.resource);
-    table.buffers.push_back(translate(context, barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
+    table.buffers.push_back(
+        translate(context, barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
   }
 }
 
@@ -145,7 +153,8 @@ void create_barriers(const Context& context, Sized& sized) {
     GroupTable& table = sized.groups[g];
     table.period = group_period(context, sized, group);
     add_memory(context, group, patches.groups[g], table);
-    for (uint32_t phase = 0; phase < table.period; ++phase) add_images(context, sized, group, patches, phase, table), add_buffers(context, sized, group, phase, table);
+    for (uint32_t phase = 0; phase < table.period; ++phase)
+      add_images(context, sized, group, patches, phase, table), add_buffers(context, sized, group, phase, table);
     list_imports(context, sized, group, table);
     fill_infos(table);
   }

@@ -18,9 +18,13 @@ bool is_image(DescriptorType type) {
 }
 bool is_buffer(DescriptorType type) { return type == DescriptorType::uniform_buffer || type == DescriptorType::storage_buffer; }
 
-bool is_imported(const Sized& sized, const Binding& binding) { return binding.ref.resource != kNone && sized.resources[binding.ref.resource].count == 0; }
+bool is_imported(const Sized& sized, const Binding& binding) {
+  return binding.ref.resource != kNone && sized.resources[binding.ref.resource].count == 0;
+}
 
-std::span<const Binding> bindings_of(const Context& context, const Pass& pass) { return context.plan.bindings.subspan(pass.first_binding, pass.binding_count); }
+std::span<const Binding> bindings_of(const Context& context, const Pass& pass) {
+  return context.plan.bindings.subspan(pass.first_binding, pass.binding_count);
+}
 
 uint32_t set_period(const Context& context, const Sized& sized, const Pass& pass) {
   uint32_t period = 1;
@@ -48,7 +52,8 @@ PoolSizes pool_sizes(const Context& context, const Sized& sized) {
   PoolSizes sizes;
   for (size_t i = 0; i < context.plan.passes.size(); ++i) {
     sizes.sets += sized.passes[i].set.period;
-    for (const Binding& binding : bindings_of(context, context.plan.passes[i])) count(sizes, static_cast<VkDescriptorType>(binding.type), sized.passes[i].set.period);
+    for (const Binding& binding : bindings_of(context, context.plan.passes[i]))
+      count(sizes, static_cast<VkDescriptorType>(binding.type), sized.passes[i].set.period);
   }
   return sizes;
 }
@@ -84,7 +89,8 @@ VkImageUsageFlags usage_of(DescriptorType type) {
 }
 
 VkDescriptorImageInfo image_info(const Objects& objects, const Binding& binding, VkImageView view) {
-  return {binding.sampler == kNone ? VkSampler(VK_NULL_HANDLE) : objects.samplers[binding.sampler].get(), view, static_cast<VkImageLayout>(binding.layout)};
+  return {binding.sampler == kNone ? VkSampler(VK_NULL_HANDLE) : objects.samplers[binding.sampler].get(), view,
+          static_cast<VkImageLayout>(binding.layout)};
 }
 
 VkDescriptorBufferInfo buffer_info(const BufferSpan& span) { return {span.buffer, span.offset, span.size == 0 ? VK_WHOLE_SIZE : span.size}; }
@@ -100,7 +106,8 @@ VkWriteDescriptorSet write_header(VkDescriptorSet set, const Binding& binding) {
 }
 
 // Contents of one binding in every set of the pass.
-void write_image(const Context& context, const Objects& objects, const Sized& sized, const Binding& binding, const ViewRef& view, const SetTable& table) {
+void write_image(const Context& context, const Objects& objects, const Sized& sized, const Binding& binding, const ViewRef& view,
+                 const SetTable& table) {
   for (uint32_t phase = 0; phase < table.period; ++phase) {
     const VkDescriptorImageInfo info = image_info(objects, binding, view_at(sized, view, phase));
     VkWriteDescriptorSet write = write_header(table.sets[phase], binding);
@@ -111,9 +118,9 @@ void write_image(const Context& context, const Objects& objects, const Sized& si
 
 void write_buffer(const Context& context, const Sized& sized, const Binding& binding, const SetTable& table) {
   for (uint32_t phase = 0; phase < table.period; ++phase) {
-    const VkDescriptorBufferInfo info = binding.params != kNone
-                                            ? VkDescriptorBufferInfo{sized.ring.buffer.get(), 0, context.plan.params[binding.params].bytes}
-                                            : buffer_info(buffer_at(sized, {}, context.plan, binding.ref, byte_range(context, sized, binding.bytes), phase));
+    const VkDescriptorBufferInfo info =
+        binding.params != kNone ? VkDescriptorBufferInfo{sized.ring.buffer.get(), 0, context.plan.params[binding.params].bytes}
+                                : buffer_info(buffer_at(sized, {}, context.plan, binding.ref, byte_range(context, sized, binding.bytes), phase));
     VkWriteDescriptorSet write = write_header(table.sets[phase], binding);
     write.pBufferInfo = &info;
     context.vk().UpdateDescriptorSets(context.device.device, 1, &write, 0, nullptr);
@@ -122,8 +129,7 @@ void write_buffer(const Context& context, const Sized& sized, const Binding& bin
 
 void add_imported(const Context& context, const Objects& objects, const Binding& binding, const ViewRef& view, SetTable& table) {
   ImportedBinding imported{&binding, view.imported, context.plan.resources[binding.ref.resource].import_slot, VK_NULL_HANDLE, {}};
-  if (is_image(binding.type))
-    imported.sampler = image_info(objects, binding, VK_NULL_HANDLE).sampler;
+  if (is_image(binding.type)) imported.sampler = image_info(objects, binding, VK_NULL_HANDLE).sampler;
   table.imported.push_back(imported);
 }
 
@@ -153,7 +159,8 @@ Status fill_sets(const Context& context, const Objects& objects, Sized& sized, c
     if (is_buffer(imported.binding->type)) imported.bytes = byte_range(context, sized, imported.binding->bytes);
   table.written_images.resize(table.imported.size() * table.period);
   table.written_buffers.resize(table.imported.size() * table.period);
-  for (const Index params : context.plan.pass_params.subspan(plan.first_params, plan.params_count)) table.block_offsets.push_back(sized.ring.param_offsets[params]);
+  for (const Index params : context.plan.pass_params.subspan(plan.first_params, plan.params_count))
+    table.block_offsets.push_back(sized.ring.param_offsets[params]);
   table.dynamic_offsets = table.block_offsets;
   return Done{};
 }
@@ -182,14 +189,17 @@ VkDeviceSize lay_out_updates(Sized& sized, VkDeviceSize end) {
 }
 
 bool same_image(const VkDescriptorImageInfo& a, const VkDescriptorImageInfo& b) { return a.imageView == b.imageView; }
-bool same_buffer(const VkDescriptorBufferInfo& a, const VkDescriptorBufferInfo& b) { return a.buffer == b.buffer && a.offset == b.offset && a.range == b.range; }
+bool same_buffer(const VkDescriptorBufferInfo& a, const VkDescriptorBufferInfo& b) {
+  return a.buffer == b.buffer && a.offset == b.offset && a.range == b.range;
+}
 
 void update_binding(const Context& context, const Sized& sized, const std::vector<Import>& imports, SetTable& table, size_t i, uint32_t phase) {
   const ImportedBinding& imported = table.imported[i];
   VkWriteDescriptorSet write = write_header(table.sets[phase], *imported.binding);
   const size_t at = phase * table.imported.size() + i;
   if (imported.view != kNone) {
-    const VkDescriptorImageInfo info{imported.sampler, sized.imported_views[imported.view].current, static_cast<VkImageLayout>(imported.binding->layout)};
+    const VkDescriptorImageInfo info{imported.sampler, sized.imported_views[imported.view].current,
+                                     static_cast<VkImageLayout>(imported.binding->layout)};
     if (same_image(info, table.written_images[at])) return;
     table.written_images[at] = info;
     write.pImageInfo = &table.written_images[at];

@@ -13,7 +13,9 @@
 namespace rg {
 
 struct NullDevice;  // null_device.cpp
-struct NullDeviceDeleter { void operator()(NullDevice* device) const; };
+struct NullDeviceDeleter {
+  void operator()(NullDevice* device) const;
+};
 
 struct Device::State {
   State() = default;

@@ -46,7 +46,8 @@ Status check_dump(const GraphInstance::State& state, Index pass, Index resource,
   if (!state.context.debug_readback) return Error{ErrorCode::invalid_argument, "dumps need GraphOptions::debug_readback"};
   if (pass >= plan.passes.size() || resource >= plan.resources.size()) return Error{ErrorCode::invalid_argument, "no such pass or resource to dump"};
   const Resource& row = plan.resources[resource];
-  if (row.kind == ResourceKind::image && row.samples != 1) return Error{ErrorCode::unsupported, "`" + std::string(row.name) + "`: multisampled images cannot be copied; dump the resolved one"};
+  if (row.kind == ResourceKind::image && row.samples != 1)
+    return Error{ErrorCode::unsupported, "`" + std::string(row.name) + "`: multisampled images cannot be copied; dump the resolved one"};
   if (row.kind == ResourceKind::image && mip >= state.sized->resources[resource].mips)
     return Error{ErrorCode::invalid_argument, "`" + std::string(row.name) + "` has no mip " + std::to_string(mip)};
   if (row.kind == ResourceKind::image && format_info(static_cast<VkFormat>(row.format)).block_width != 1)
@@ -64,7 +65,8 @@ void shape_image(const GraphInstance::State& state, DumpRequest& dump) {
   dump.shape.depth_or_layers = std::max(extent.depth, size.layers);
   dump.shape.bytes_per_texel = copy_bytes(static_cast<VkFormat>(resource.format), dumped_aspect(resource));
   dump.bytes = VkDeviceSize{extent.width} * extent.height * dump.shape.depth_or_layers * dump.shape.bytes_per_texel;
-  for (uint32_t layer = 0; layer < size.layers; ++layer) dump.layouts.push_back(layout_after(state.context.plan, dump.pass, dump.resource, dump.mip, layer));
+  for (uint32_t layer = 0; layer < size.layers; ++layer)
+    dump.layouts.push_back(layout_after(state.context.plan, dump.pass, dump.resource, dump.mip, layer));
 }
 
 void shape_buffer(const GraphInstance::State& state, DumpRequest& dump) {
@@ -95,7 +97,8 @@ void record_barrier(const FrameRecording& r, const VkImageMemoryBarrier2& barrie
 }
 
 // `src` without `dst` makes everything visible to the copy, the other way round protects what was copied.
-void record_barrier(const FrameRecording& r, VkPipelineStageFlags2 src, VkAccessFlags2 src_access, VkPipelineStageFlags2 dst, VkAccessFlags2 dst_access) {
+void record_barrier(const FrameRecording& r, VkPipelineStageFlags2 src, VkAccessFlags2 src_access, VkPipelineStageFlags2 dst,
+                    VkAccessFlags2 dst_access) {
   const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, src, src_access, dst, dst_access};
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
@@ -151,8 +154,10 @@ Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
     shape_image(*state_, dump);
   else
     shape_buffer(*state_, dump);
-  if (dump.bytes == 0) return Error{ErrorCode::invalid_argument, "`" + std::string(state_->context.plan.resources[resource].name) + "` has no size of its own to dump"};
-  Result<HostBuffer> buffer = create_host_buffer(state_->context.device, dump.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, "dump");
+  if (dump.bytes == 0)
+    return Error{ErrorCode::invalid_argument, "`" + std::string(state_->context.plan.resources[resource].name) + "` has no size of its own to dump"};
+  Result<HostBuffer> buffer =
+      create_host_buffer(state_->context.device, dump.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, "dump");
   if (!buffer) return buffer.error();
   dump.memory = std::move(buffer->memory);
   dump.buffer = std::move(buffer->buffer);

@@ -5,7 +5,8 @@ namespace rg {
 std::string_view result_name(VkResult result) {
   switch (result) {
 #define RG_NAME(name) \
-  case name: return #name;
+  case name:          \
+    return #name;
     RG_NAME(VK_SUCCESS)
     RG_NAME(VK_NOT_READY)
     RG_NAME(VK_TIMEOUT)
@@ -26,7 +27,8 @@ std::string_view result_name(VkResult result) {
     RG_NAME(VK_ERROR_OUT_OF_DATE_KHR)
     RG_NAME(VK_ERROR_SURFACE_LOST_KHR)
 #undef RG_NAME
-    default: return "an unnamed VkResult";
+    default:
+      return "an unnamed VkResult";
   }
 }
 
@@ -38,16 +40,21 @@ ErrorCode code_of(VkResult result) {
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_FRAGMENTED_POOL:
     case VK_ERROR_TOO_MANY_OBJECTS:
-    case VK_ERROR_MEMORY_MAP_FAILED: return ErrorCode::out_of_memory;
-    case VK_ERROR_DEVICE_LOST: return ErrorCode::device_lost;
+    case VK_ERROR_MEMORY_MAP_FAILED:
+      return ErrorCode::out_of_memory;
+    case VK_ERROR_DEVICE_LOST:
+      return ErrorCode::device_lost;
     case VK_ERROR_OUT_OF_DATE_KHR:
-    case VK_ERROR_SURFACE_LOST_KHR: return ErrorCode::out_of_date;
+    case VK_ERROR_SURFACE_LOST_KHR:
+      return ErrorCode::out_of_date;
     case VK_ERROR_LAYER_NOT_PRESENT:
     case VK_ERROR_EXTENSION_NOT_PRESENT:
     case VK_ERROR_FEATURE_NOT_PRESENT:
     case VK_ERROR_INCOMPATIBLE_DRIVER:
-    case VK_ERROR_FORMAT_NOT_SUPPORTED: return ErrorCode::unsupported;
-    default: return ErrorCode::driver;
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+      return ErrorCode::unsupported;
+    default:
+      return ErrorCode::driver;
   }
 }
 }  // namespace

@@ -51,7 +51,8 @@ Status create_slot(const Context& context, uint32_t command_buffers, uint32_t qu
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
   info.commandPool = pool;
   info.commandBufferCount = command_buffers;
-  RG_TRY(check(context.vk().AllocateCommandBuffers(context.device.device, &info, slot.commands.data()), "vkAllocateCommandBuffers", context.plan.name));
+  RG_TRY(
+      check(context.vk().AllocateCommandBuffers(context.device.device, &info, slot.commands.data()), "vkAllocateCommandBuffers", context.plan.name));
   if (context.device.validating) RG_TRY(create_fence(context, slot));
   return queries == 0 || context.device.timestamp_bits == 0 ? Status(Done{}) : create_queries(context, queries, slot);
 }
@@ -135,7 +136,8 @@ Status end_commands(const Context& context, VkCommandBuffer commands) {
 Error wrong(std::string message) { return Error{ErrorCode::invalid_argument, std::move(message)}; }
 
 Status check_imports(const GraphInstance::State& state, const FrameInputs& inputs) {
-  if (inputs.imports.size() < state.imports.size()) return wrong("too few imports: " + std::to_string(inputs.imports.size()) + " of " + std::to_string(state.imports.size()));
+  if (inputs.imports.size() < state.imports.size())
+    return wrong("too few imports: " + std::to_string(inputs.imports.size()) + " of " + std::to_string(state.imports.size()));
   for (const Resource& resource : state.context.plan.resources) {
     if (resource.lifetime != Lifetime::imported) continue;
     const Import& import = inputs.imports[resource.import_slot];
@@ -151,11 +153,12 @@ Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs
   if (inputs.params.size() < plan.params.size()) return wrong("too few parameter blocks");
   for (size_t i = 0; i < plan.params.size(); ++i)
     if (inputs.params[i].size() != plan.params[i].bytes)
-      return wrong("parameter block `" + std::string(plan.params[i].name) + "` has " + std::to_string(inputs.params[i].size()) + " bytes instead of " +
-                   std::to_string(plan.params[i].bytes));
+      return wrong("parameter block `" + std::string(plan.params[i].name) + "` has " + std::to_string(inputs.params[i].size()) +
+                   " bytes instead of " + std::to_string(plan.params[i].bytes));
   if (state.host_slots != 0 && inputs.callbacks == nullptr) return wrong("no callbacks");
   for (const Pass& pass : plan.passes)
-    if (pass.work.kind == WorkKind::host && inputs.callbacks[pass.host_slot] == nullptr) return wrong("pass `" + std::string(pass.name) + "` has no callback");
+    if (pass.work.kind == WorkKind::host && inputs.callbacks[pass.host_slot] == nullptr)
+      return wrong("pass `" + std::string(pass.name) + "` has no callback");
   if (inputs.updates.size() < state.update_slots) return wrong("too few updates");
   if (inputs.engine_sets.size() < plan.engine_sets.size()) return wrong("too few engine sets");
   return Done{};
@@ -186,10 +189,12 @@ void write_params(const GraphInstance::State& state, const FrameInputs& inputs) 
   const Ring& ring = state.sized->ring;
   for (size_t i = 0; i < state.context.plan.params.size(); ++i)
     if (!inputs.params[i].empty())
-      std::memcpy(ring.mapped + state.frame % state.context.frames_in_flight * ring.section + ring.param_offsets[i], inputs.params[i].data(), inputs.params[i].size());
+      std::memcpy(ring.mapped + state.frame % state.context.frames_in_flight * ring.section + ring.param_offsets[i], inputs.params[i].data(),
+                  inputs.params[i].size());
 }
 
-Status record_batch(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, const Batch& batch, VkCommandBuffer commands, bool first) {
+Status record_batch(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, const Batch& batch, VkCommandBuffer commands,
+                    bool first) {
   const Context& context = state.context;
   RG_TRY(begin_commands(context, commands));
   if (first && slot.queries) context.vk().CmdResetQueryPool(commands, slot.queries.get(), 0, 2 * static_cast<uint32_t>(context.plan.passes.size()));
@@ -216,7 +221,8 @@ void fill_submits(GraphInstance::State& state, const FrameSlot& slot) {
     info.signalSemaphoreInfoCount = batch.signal_count;
     info.pSignalSemaphoreInfos = state.submit_signals.data() + state.submit_signals.size();
     for (const Signal& signal : plan.signals.subspan(batch.first_signal, batch.signal_count))
-      state.submit_signals.push_back(semaphore_info(state.queue_timelines[batch.queue].get(), queue_value(state, batch.queue, signal.value), signal.stages));
+      state.submit_signals.push_back(
+          semaphore_info(state.queue_timelines[batch.queue].get(), queue_value(state, batch.queue, signal.value), signal.stages));
   }
   state.submit_signals.push_back(semaphore_info(state.timeline.get(), state.submitted + 1, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT));
   state.submits.back().pSignalSemaphoreInfos = &state.submit_signals.back() - state.submits.back().signalSemaphoreInfoCount;
@@ -304,7 +310,8 @@ Status release_retired(GraphInstance::State& state) {
 Status submit_prologue(GraphInstance::State& state, const Sized& sized) {
   RG_TRY(wait_for(state, state.prologue.value));
   const VkCommandBuffer commands = state.prologue.commands[0];
-  RG_TRY(check(state.context.vk().ResetCommandPool(state.context.device.device, state.prologue.pool.get(), 0), "vkResetCommandPool", state.context.plan.name));
+  RG_TRY(check(state.context.vk().ResetCommandPool(state.context.device.device, state.prologue.pool.get(), 0), "vkResetCommandPool",
+               state.context.plan.name));
   RG_TRY(begin_commands(state.context, commands));
   record_prologue(state.context, sized, commands, state.frame);
   RG_TRY(end_commands(state.context, commands));

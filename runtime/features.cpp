@@ -11,7 +11,8 @@ struct Feature {
   bool required;
 };
 
-#define RG_FEATURE(Struct, member, required) {#member, &Struct::member, required}
+#define RG_FEATURE(Struct, member, required) \
+  { #member, &Struct::member, required }
 constexpr Feature<VkPhysicalDeviceFeatures> kCore[] = {
     RG_FEATURE(VkPhysicalDeviceFeatures, fragmentStoresAndAtomics, true),
     RG_FEATURE(VkPhysicalDeviceFeatures, independentBlend, true),

@@ -35,12 +35,18 @@ uint32_t block_bytes(VkFormat format) {
 FormatInfo depth_info(VkFormat format) {
   constexpr VkImageAspectFlags both = VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT;
   switch (format) {
-    case VK_FORMAT_D16_UNORM: return {2, 1, 1, VK_IMAGE_ASPECT_DEPTH_BIT};
-    case VK_FORMAT_S8_UINT: return {1, 1, 1, VK_IMAGE_ASPECT_STENCIL_BIT};
-    case VK_FORMAT_D16_UNORM_S8_UINT: return {4, 1, 1, both};
-    case VK_FORMAT_D24_UNORM_S8_UINT: return {4, 1, 1, both};
-    case VK_FORMAT_D32_SFLOAT_S8_UINT: return {8, 1, 1, both};
-    default: return {4, 1, 1, VK_IMAGE_ASPECT_DEPTH_BIT};
+    case VK_FORMAT_D16_UNORM:
+      return {2, 1, 1, VK_IMAGE_ASPECT_DEPTH_BIT};
+    case VK_FORMAT_S8_UINT:
+      return {1, 1, 1, VK_IMAGE_ASPECT_STENCIL_BIT};
+    case VK_FORMAT_D16_UNORM_S8_UINT:
+      return {4, 1, 1, both};
+    case VK_FORMAT_D24_UNORM_S8_UINT:
+      return {4, 1, 1, both};
+    case VK_FORMAT_D32_SFLOAT_S8_UINT:
+      return {8, 1, 1, both};
+    default:
+      return {4, 1, 1, VK_IMAGE_ASPECT_DEPTH_BIT};
   }
 }
 

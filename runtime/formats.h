@@ -8,7 +8,7 @@
 namespace rg {
 
 struct FormatInfo {
-  uint32_t block_bytes = 0;               // 0: unknown format
+  uint32_t block_bytes = 0;  // 0: unknown format
   uint32_t block_width = 1, block_height = 1;
   VkImageAspectFlags aspects = 0;
 };

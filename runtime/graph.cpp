@@ -29,13 +29,14 @@ Status check_options(const Plan& plan, const GraphOptions& options) {
   if (options.frames_in_flight < 1 || options.frames_in_flight > 4)
     return Error{ErrorCode::invalid_argument, "frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 to 4"};
   if (options.engine_set_layouts.size() < plan.engine_sets.size())
-    return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "` uses " + std::to_string(plan.engine_sets.size()) + " engine sets; layouts given: " +
-                                                  std::to_string(options.engine_set_layouts.size())};
+    return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "` uses " + std::to_string(plan.engine_sets.size()) +
+                                                  " engine sets; layouts given: " + std::to_string(options.engine_set_layouts.size())};
   return Done{};
 }
 
 Context make_context(Device& device, const Plan& plan, const GraphOptions& options) {
-  Context context{device.state(), plan, options.frames_in_flight, options.aliasing, options.poison, options.debug_readback, options.submit_per_pass, {}};
+  Context context{device.state(),          plan, options.frames_in_flight, options.aliasing, options.poison, options.debug_readback,
+                  options.submit_per_pass, {}};
   context.engine_set_layouts.assign(options.engine_set_layouts.begin(), options.engine_set_layouts.end());
   return context;
 }
@@ -48,7 +49,8 @@ std::vector<int64_t> initial_extents(const Plan& plan) {
 
 Status check_extents(const Plan& plan, std::span<const int64_t> values) {
   if (values.size() != plan.extents.size() * 3)
-    return Error{ErrorCode::invalid_argument, "extents: " + std::to_string(values.size()) + " values instead of " + std::to_string(plan.extents.size() * 3)};
+    return Error{ErrorCode::invalid_argument,
+                 "extents: " + std::to_string(values.size()) + " values instead of " + std::to_string(plan.extents.size() * 3)};
   for (size_t i = 0; i < values.size(); ++i) {
     const Extent& extent = plan.extents[i / 3];
     if (i % 3 >= extent.axes) continue;

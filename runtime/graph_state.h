@@ -28,28 +28,28 @@ struct Context {
 // ---- independent of extents ---------------------------------------------------------------------------------------
 
 struct PassObjects {
-  std::string name, module;              // zero-terminated, for labels
+  std::string name, module;  // zero-terminated, for labels
   std::vector<VkFormat> color_formats;
-  UniqueSetLayout set_layout;            // of set 1; null: the empty one
+  UniqueSetLayout set_layout;  // of set 1; null: the empty one
   UniquePipelineLayout layout;
-  UniqueRenderPass render_pass;          // only where classic render passes are recorded
+  UniqueRenderPass render_pass;  // only where classic render passes are recorded
   UniquePipeline pipeline;
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
 };
 
 struct Objects {
-  std::vector<UniqueSampler> samplers;   // by Plan::samplers
+  std::vector<UniqueSampler> samplers;  // by Plan::samplers
   UniqueSetLayout empty_set_layout;
-  std::vector<PassObjects> passes;       // by Plan::passes
+  std::vector<PassObjects> passes;  // by Plan::passes
 };
 
 // ---- dependent on extents -----------------------------------------------------------------------------------------
 
 struct SizedResource {
-  uint32_t first = 0, count = 0;         // physical copies in Sized::images or Sized::buffers; count 0: imported
+  uint32_t first = 0, count = 0;  // physical copies in Sized::images or Sized::buffers; count 0: imported
   VkExtent3D extent = {1, 1, 1};
   uint32_t mips = 1, layers = 1;
-  VkDeviceSize bytes = 0;                // buffers
+  VkDeviceSize bytes = 0;  // buffers
 };
 
 // The physical copy that is `age` frames old at `frame`.
@@ -57,8 +57,13 @@ constexpr uint32_t copy_index(const SizedResource& resource, uint32_t age, uint6
   return resource.first + static_cast<uint32_t>((frame + resource.count - age % resource.count) % resource.count);
 }
 
-struct BufferSpan { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
-struct ByteRange { VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };  // Bytes at the current extents
+struct BufferSpan {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0, size = VK_WHOLE_SIZE;
+};
+struct ByteRange {
+  VkDeviceSize offset = 0, size = VK_WHOLE_SIZE;
+};  // Bytes at the current extents
 
 // Views of an imported image, which may be another one every frame. More entries than frames in flight, so that the one used
 // longest ago is no longer in use.
@@ -66,18 +71,22 @@ struct ImportedView {
   Index resource = kNone;
   VkImageViewCreateInfo info{};
   VkImageViewUsageCreateInfo usage{};
-  bool whole = false;                    // covers the image: the engine's own view serves
-  struct Entry { VkImage image = VK_NULL_HANDLE; UniqueView view; uint64_t frame = 0; };
+  bool whole = false;  // covers the image: the engine's own view serves
+  struct Entry {
+    VkImage image = VK_NULL_HANDLE;
+    UniqueView view;
+    uint64_t frame = 0;
+  };
   std::array<Entry, 16> entries;
   VkImageView current = VK_NULL_HANDLE;
-  bool replaced = false;                 // a view was destroyed: its handle may return with another meaning
+  bool replaced = false;  // a view was destroyed: its handle may return with another meaning
 };
 
 struct ViewRef {  // one view per physical copy, or an imported one
   Ref ref;
   uint32_t first = 0;
-  Index imported = kNone;                // in Sized::imported_views
-  bool exists = true;                    // false: its mips or layers vanished at these extents
+  Index imported = kNone;  // in Sized::imported_views
+  bool exists = true;      // false: its mips or layers vanished at these extents
 };
 
 struct GroupTable {  // one BarrierGroup as Vulkan sees it, once per combination of physical copies
@@ -85,29 +94,43 @@ struct GroupTable {  // one BarrierGroup as Vulkan sees it, once per combination
   std::vector<VkMemoryBarrier2> memory;
   std::vector<VkImageMemoryBarrier2> images;
   std::vector<VkBufferMemoryBarrier2> buffers;
-  std::vector<VkDependencyInfo> infos;   // by frame mod period
-  Index poison = kNone;                  // in Sized::poisons
+  std::vector<VkDependencyInfo> infos;  // by frame mod period
+  Index poison = kNone;                 // in Sized::poisons
 };
-struct ImportedImageBarrier { Index slot = kNone; VkImageMemoryBarrier2* barrier = nullptr; };
-struct ImportedBufferBarrier { Ref ref; VkBufferMemoryBarrier2* barrier = nullptr; ByteRange bytes; };
+struct ImportedImageBarrier {
+  Index slot = kNone;
+  VkImageMemoryBarrier2* barrier = nullptr;
+};
+struct ImportedBufferBarrier {
+  Ref ref;
+  VkBufferMemoryBarrier2* barrier = nullptr;
+  ByteRange bytes;
+};
 
 struct PoisonTable {  // fills what the group acquires; see poison.cpp
-  struct Target { Index resource = kNone; VkImageSubresourceRange range{}; };
+  struct Target {
+    Index resource = kNone;
+    VkImageSubresourceRange range{};
+  };
   std::vector<Target> targets;
   std::vector<VkImageMemoryBarrier2> images;  // images of one copy only: transients have no history
 };
 
-struct FramebufferEntry { std::vector<VkImageView> views; UniqueFramebuffer framebuffer; uint64_t frame = 0; };
+struct FramebufferEntry {
+  std::vector<VkImageView> views;
+  UniqueFramebuffer framebuffer;
+  uint64_t frame = 0;
+};
 
 struct RenderingTable {
   VkRect2D area{};
   uint32_t layers = 1, view_mask = 0, color_count = 0;
   bool has_depth = false, has_stencil = false;
-  std::vector<ViewRef> views, resolve_views;             // colours, then depth, then stencil
-  std::vector<VkRenderingAttachmentInfo> attachments;    // same order; views are filled in every frame
+  std::vector<ViewRef> views, resolve_views;           // colours, then depth, then stencil
+  std::vector<VkRenderingAttachmentInfo> attachments;  // same order; views are filled in every frame
   // Classic form, where recorded.
   std::vector<FramebufferEntry> framebuffers;
-  VkFramebuffer framebuffer = VK_NULL_HANDLE;            // of this frame
+  VkFramebuffer framebuffer = VK_NULL_HANDLE;  // of this frame
   std::vector<ViewRef> framebuffer_views;
   std::vector<VkImageView> framebuffer_handles;
   std::vector<VkClearValue> clears;
@@ -115,40 +138,40 @@ struct RenderingTable {
 
 struct ImportedBinding {
   const Binding* binding = nullptr;
-  Index view = kNone;                                    // in Sized::imported_views; kNone: a buffer
+  Index view = kNone;  // in Sized::imported_views; kNone: a buffer
   Index slot = kNone;
   VkSampler sampler = VK_NULL_HANDLE;
   ByteRange bytes;
 };
 struct SetTable {
-  uint32_t period = 0;                                   // 0: the pass has no set
-  std::vector<VkDescriptorSet> sets;                     // by frame mod period
-  std::vector<ImportedBinding> imported;                 // rewritten where the handle differs from the one last written
-  std::vector<VkDescriptorImageInfo> written_images;     // by set, then imported binding
+  uint32_t period = 0;                                // 0: the pass has no set
+  std::vector<VkDescriptorSet> sets;                  // by frame mod period
+  std::vector<ImportedBinding> imported;              // rewritten where the handle differs from the one last written
+  std::vector<VkDescriptorImageInfo> written_images;  // by set, then imported binding
   std::vector<VkDescriptorBufferInfo> written_buffers;
-  std::vector<uint32_t> block_offsets;                   // of parameter blocks, in binding order
-  std::vector<uint32_t> dynamic_offsets;                 // the same plus this frame's section
+  std::vector<uint32_t> block_offsets;    // of parameter blocks, in binding order
+  std::vector<uint32_t> dynamic_offsets;  // the same plus this frame's section
 };
 
 struct TransferTable {
   const Transfer* transfer = nullptr;
   VkImageLayout src_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, dst_layout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   ByteRange src_bytes, dst_bytes;
-  VkImageSubresourceRange range{};                       // clears
+  VkImageSubresourceRange range{};  // clears
   std::vector<VkImageCopy> copies;
   std::vector<VkImageBlit> blits;
   std::vector<VkImageResolve> resolves;
-  std::vector<VkBufferImageCopy> buffer_copies;          // also updates of images
-  uint32_t upload_offset = 0;                            // updates: in a section of the ring
-  VkDeviceSize upload_bytes = 0, upload_now = 0;         // room, and bytes of this frame
+  std::vector<VkBufferImageCopy> buffer_copies;   // also updates of images
+  uint32_t upload_offset = 0;                     // updates: in a section of the ring
+  VkDeviceSize upload_bytes = 0, upload_now = 0;  // room, and bytes of this frame
 };
 
 struct PassTable {
-  bool runs = true;                                      // every mip that it touches exists
+  bool runs = true;  // every mip that it touches exists
   PassInfo info;
   RenderingTable rendering;
   SetTable set;
-  uint32_t x = 1, y = 1, z = 1;                          // groups, or vertices and instances
+  uint32_t x = 1, y = 1, z = 1;  // groups, or vertices and instances
   VkDeviceSize arguments_offset = 0;
   std::vector<TransferTable> transfers;
 };
@@ -159,19 +182,22 @@ struct Ring {
   UniqueBuffer buffer;
   std::byte* mapped = nullptr;
   VkDeviceSize section = 0;
-  std::vector<uint32_t> param_offsets;                   // by Plan::params, within a section
+  std::vector<uint32_t> param_offsets;  // by Plan::params, within a section
 };
 
-struct HostCopy { std::byte* mapped = nullptr; VkDeviceMemory memory = VK_NULL_HANDLE; };  // of a readback buffer
+struct HostCopy {
+  std::byte* mapped = nullptr;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+};  // of a readback buffer
 
 struct Sized {
   std::vector<int64_t> extents;
-  std::vector<int64_t> values;                           // of Plan::exprs at these extents
-  std::vector<UniqueMemory> memories;                    // declared before what lies in it, so destroyed after it
-  std::vector<SizedResource> resources;                  // by Plan::resources
+  std::vector<int64_t> values;           // of Plan::exprs at these extents
+  std::vector<UniqueMemory> memories;    // declared before what lies in it, so destroyed after it
+  std::vector<SizedResource> resources;  // by Plan::resources
   std::vector<UniqueImage> images;
   std::vector<UniqueBuffer> buffers;
-  std::vector<HostCopy> host_copies;                     // by buffer; empty for those the host cannot see
+  std::vector<HostCopy> host_copies;  // by buffer; empty for those the host cannot see
   std::vector<UniqueView> views;
   std::vector<ImportedView> imported_views;
   Ring ring;
@@ -181,7 +207,7 @@ struct Sized {
   std::vector<ImportedBufferBarrier> imported_buffers;
   std::vector<PoisonTable> poisons;
   std::vector<PassTable> passes;
-  std::vector<alias::Placed> placed;                     // by Plan::resources: transients in their heaps, laid end to end
+  std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps, laid end to end
   MemoryReport report;
   std::vector<PlacedResource> placements;
 };
@@ -192,8 +218,8 @@ struct FrameSlot {
   UniqueCommandPool pool;
   std::vector<VkCommandBuffer> commands;
   UniqueQueryPool queries;
-  UniqueFence fence;                                     // only when validating: the layer learns nothing from waits on timelines
-  uint64_t value = 0;                                    // of the timeline when its last frame is done
+  UniqueFence fence;   // only when validating: the layer learns nothing from waits on timelines
+  uint64_t value = 0;  // of the timeline when its last frame is done
   uint64_t frame = UINT64_MAX;
 };
 
@@ -205,11 +231,14 @@ struct DumpRequest {
   std::byte* mapped = nullptr;
   Dump shape;
   VkDeviceSize bytes = 0;
-  std::vector<VkImageLayout> layouts;                    // by layer, right after the pass
-  uint64_t value = 0;                                    // 0: not recorded yet
+  std::vector<VkImageLayout> layouts;  // by layer, right after the pass
+  uint64_t value = 0;                  // 0: not recorded yet
 };
 
-struct Retired { uint64_t value = 0; std::unique_ptr<Sized> sized; };
+struct Retired {
+  uint64_t value = 0;
+  std::unique_ptr<Sized> sized;
+};
 
 struct GraphInstance::State {
   explicit State(Context c) : context(std::move(c)) {}
@@ -218,18 +247,18 @@ struct GraphInstance::State {
   Context context;
   Objects objects;
   UniqueSemaphore timeline;
-  uint64_t submitted = 0;                                // last value of `timeline` that was submitted
-  std::vector<UniqueSemaphore> queue_timelines;          // by Plan::queues; empty where the plan signals nothing
-  std::vector<uint64_t> queue_signals;                   // most that a queue signals in a frame
+  uint64_t submitted = 0;                        // last value of `timeline` that was submitted
+  std::vector<UniqueSemaphore> queue_timelines;  // by Plan::queues; empty where the plan signals nothing
+  std::vector<uint64_t> queue_signals;           // most that a queue signals in a frame
   std::vector<FrameSlot> slots;
   FrameSlot prologue;
   std::unique_ptr<Sized> sized;
   std::vector<Retired> retired;
   uint64_t frame = 0;
-  std::vector<Import> imports;                           // of this frame, by slot
-  bool imports_applied = false;                          // to the barriers of `sized`
+  std::vector<Import> imports;   // of this frame, by slot
+  bool imports_applied = false;  // to the barriers of `sized`
   uint32_t host_slots = 0, update_slots = 0;
-  std::vector<double> wall_ms;                           // by pass, with submit_per_pass
+  std::vector<double> wall_ms;  // by pass, with submit_per_pass
   DumpRequest dump;
   std::vector<VkSubmitInfo2> submits;
   std::vector<VkCommandBufferSubmitInfo> submit_commands;

@@ -112,8 +112,10 @@ VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& ite
 Status bind(const Context& context, const Sized& sized, const Item& item, VkDeviceMemory memory) {
   const std::string_view name = context.plan.resources[item.resource].name;
   if (item.is_image)
-    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object].get(), memory, item.offset), "vkBindImageMemory", name);
-  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object].get(), memory, item.offset), "vkBindBufferMemory", name);
+    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object].get(), memory, item.offset), "vkBindImageMemory",
+                 name);
+  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object].get(), memory, item.offset), "vkBindBufferMemory",
+               name);
 }
 
 Status map_copies(const Context& context, Sized& sized, const std::vector<Item*>& items, VkDeviceMemory memory) {
@@ -179,7 +181,8 @@ Status place_resources(const Context& context, Sized& sized) {
       if (!chosen.empty()) RG_TRY(place_arena(context, sized, arena, type, chosen));
     }
   for (const Item& item : items) {
-    if (item.type == UINT32_MAX) return Error{ErrorCode::unsupported, "`" + std::string(context.plan.resources[item.resource].name) + "`: no memory type fits"};
+    if (item.type == UINT32_MAX)
+      return Error{ErrorCode::unsupported, "`" + std::string(context.plan.resources[item.resource].name) + "`: no memory type fits"};
     sized.placements.push_back({context.plan.resources[item.resource].name, item.offset, item.bytes});
   }
   return Done{};

@@ -47,14 +47,16 @@ NullDevice& owner(VkDevice device) { return *reinterpret_cast<NullDevice*>(devic
 NullDevice& owner(VkQueue queue) { return *reinterpret_cast<NullDevice*>(queue); }
 NullDevice& owner(VkCommandBuffer commands) { return *reinterpret_cast<NullCommands*>(commands)->owner; }
 
-template <class Handle> Handle new_handle(NullDevice& null) {
+template <class Handle>
+Handle new_handle(NullDevice& null) {
   return reinterpret_cast<Handle>(static_cast<uintptr_t>(++null.next[kHandleName<Handle>]));
 }
 
 void first_argument(NullLine& line, VkCommandBuffer commands) {
   line.text(" commands"), line.number(reinterpret_cast<NullCommands*>(commands)->number);
 }
-template <class Handle> void first_argument(NullLine&, Handle) {}
+template <class Handle>
+void first_argument(NullLine&, Handle) {}
 
 template <class First, class... Rest>
 void begin_line(NullLine& line, const char* name, First first, Rest... rest) {
@@ -64,7 +66,8 @@ void begin_line(NullLine& line, const char* name, First first, Rest... rest) {
 }
 
 // One function of the table: what kind it is follows from its type.
-template <class Tag, class Function> struct Null;
+template <class Tag, class Function>
+struct Null;
 
 template <class Tag, class Result, class First, class... Rest>
 struct Null<Tag, Result (*)(First, Rest...)> {
@@ -127,8 +130,10 @@ struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, 
   }
 };
 
-#define RG_TAG(name_) \
-  struct Tag##name_ { static constexpr const char* name = "vk" #name_; };
+#define RG_TAG(name_)                                \
+  struct Tag##name_ {                                \
+    static constexpr const char* name = "vk" #name_; \
+  };
 #define RG_DEVICE RG_TAG
 #define RG_DEVICE_OPTIONAL RG_TAG
 #include "runtime/functions.def"
@@ -166,9 +171,12 @@ VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* inf
 }
 
 void VKAPI_CALL image_requirements(VkDevice device, VkImage image, VkMemoryRequirements* out) { *out = requirements(owner(device).images[image]); }
-void VKAPI_CALL buffer_requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* out) { *out = requirements(owner(device).buffers[buffer]); }
+void VKAPI_CALL buffer_requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* out) {
+  *out = requirements(owner(device).buffers[buffer]);
+}
 
-VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+VkResult VKAPI_CALL allocate_memory(VkDevice device, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator,
+                                    VkDeviceMemory* memory) {
   const VkResult result = Null<TagAllocateMemory, PFN_vkAllocateMemory>::call(device, info, allocator, memory);
   if (result == VK_SUCCESS) owner(device).memory_bytes[*memory] = info->allocationSize;
   return result;
@@ -183,7 +191,8 @@ VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory, VkDeviceS
   return VK_SUCCESS;
 }
 
-VkResult VKAPI_CALL create_semaphore(VkDevice device, const VkSemaphoreCreateInfo* info, const VkAllocationCallbacks* allocator, VkSemaphore* semaphore) {
+VkResult VKAPI_CALL create_semaphore(VkDevice device, const VkSemaphoreCreateInfo* info, const VkAllocationCallbacks* allocator,
+                                     VkSemaphore* semaphore) {
   const VkResult result = Null<TagCreateSemaphore, PFN_vkCreateSemaphore>::call(device, info, allocator, semaphore);
   if (result == VK_SUCCESS) owner(device).semaphores.resize(reinterpret_cast<uintptr_t>(*semaphore) + 1);
   return result;
@@ -234,7 +243,8 @@ void VKAPI_CALL update_sets(VkDevice device, uint32_t count, const VkWriteDescri
 }
 
 // A clock that ticks a microsecond a query, so that a pass takes 0.001 ms.
-VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool, uint32_t first, uint32_t count, size_t, void* data, VkDeviceSize stride, VkQueryResultFlags) {
+VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool, uint32_t first, uint32_t count, size_t, void* data, VkDeviceSize stride,
+                                  VkQueryResultFlags) {
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t value = 1000ull * (first + i);
     std::memcpy(static_cast<std::byte*>(data) + i * stride, &value, sizeof value);

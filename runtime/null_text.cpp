@@ -136,9 +136,7 @@ void print_struct(NullLine& line, const VkImageSubresourceRange& info) {
   pair(line, " layers ", info.baseArrayLayer), pair(line, "+", info.layerCount);
 }
 
-void print_struct(NullLine& line, const VkViewport& info) {
-  line.real(info.width), line.text("x"), line.real(info.height);
-}
+void print_struct(NullLine& line, const VkViewport& info) { line.real(info.width), line.text("x"), line.real(info.height); }
 
 void print_struct(NullLine& line, const VkRect2D& info) { pair(line, "", info.extent.width), pair(line, "x", info.extent.height); }
 

@@ -11,8 +11,11 @@
 namespace rg {
 
 // A non-dispatchable handle's value: its number in order of creation among its kind.
-template <class Handle> inline constexpr const char* kHandleName = nullptr;
-#define RG_HANDLE(Type, text) template <> inline constexpr const char* kHandleName<Type> = text;
+template <class Handle>
+inline constexpr const char* kHandleName = nullptr;
+#define RG_HANDLE(Type, text) \
+  template <>                 \
+  inline constexpr const char* kHandleName<Type> = text;
 RG_HANDLE(VkDeviceMemory, "memory")
 RG_HANDLE(VkBuffer, "buffer")
 RG_HANDLE(VkImage, "image")
@@ -38,19 +41,23 @@ RG_HANDLE(VkCommandPool, "command_pool")
 class NullLine {
  public:
   explicit NullLine(std::string* log) : log_(log) {}
-  void text(std::string_view value) { if (log_ != nullptr) log_->append(value); }
+  void text(std::string_view value) {
+    if (log_ != nullptr) log_->append(value);
+  }
   void number(uint64_t value) { format("%llu", static_cast<unsigned long long>(value)); }
   void signed_number(int64_t value) { format("%lld", static_cast<long long>(value)); }
   void hex(uint64_t value) { format("0x%llx", static_cast<unsigned long long>(value)); }
   void real(double value) { format("%g", value); }
-  template <class Handle> void handle(Handle value) {
+  template <class Handle>
+  void handle(Handle value) {
     if (value == VK_NULL_HANDLE) return text("null");
     text(kHandleName<Handle>);
     number(reinterpret_cast<uintptr_t>(value));
   }
 
  private:
-  template <class Value> void format(const char* pattern, Value value) {
+  template <class Value>
+  void format(const char* pattern, Value value) {
     char buffer[32];
     const int size = std::snprintf(buffer, sizeof buffer, pattern, value);
     text({buffer, static_cast<size_t>(size)});
@@ -84,9 +91,12 @@ void print_struct(NullLine& line, const VkDebugUtilsLabelEXT& info);
 void print_struct(NullLine& line, const uint32_t& info);
 
 template <class T>
-concept PrintableStruct = requires(NullLine& line, const T& value) { print_struct(line, value); };
+concept PrintableStruct = requires(NullLine& line, const T& value) {
+  print_struct(line, value);
+};
 
-template <class T> void print_argument(NullLine& line, T value) {
+template <class T>
+void print_argument(NullLine& line, T value) {
   if constexpr (std::is_enum_v<T>) {
     line.text(" "), line.signed_number(static_cast<int64_t>(value));
   } else if constexpr (std::is_floating_point_v<T>) {

@@ -19,7 +19,8 @@ constexpr const char* kLoadOpNone = "VK_EXT_load_store_op_none";
 Result<PFN_vkGetInstanceProcAddr> open_loader(Device::State& state) {
   // RTLD_NODELETE: drivers leave threads and exit handlers behind.
   state.library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-  if (state.library == nullptr) return Error{ErrorCode::unsupported, "no Vulkan loader: libvulkan.so.1 was not found; install the package `libvulkan1`"};
+  if (state.library == nullptr)
+    return Error{ErrorCode::unsupported, "no Vulkan loader: libvulkan.so.1 was not found; install the package `libvulkan1`"};
   auto get = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(state.library, "vkGetInstanceProcAddr"));
   const char* missing = get == nullptr ? "vkGetInstanceProcAddr" : load_global_functions(state.vk, get);
   if (missing != nullptr) return Error{ErrorCode::unsupported, std::string("the Vulkan loader lacks ") + missing};
@@ -77,9 +78,7 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(Device::State& state) {
 }
 
 // Hazards between submits are off by default in the layer and can only be switched on from outside the API.
-void ask_for_submit_time_checks() {
-  setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0);
-}
+void ask_for_submit_time_checks() { setenv("VK_LAYER_ENABLES", "VALIDATION_CHECK_ENABLE_SYNCHRONIZATION_VALIDATION_QUEUE_SUBMIT", 0); }
 
 Status check_loader_version(const DeviceFunctions& vk) {
   uint32_t version = 0;
@@ -88,42 +87,65 @@ Status check_loader_version(const DeviceFunctions& vk) {
   return Error{ErrorCode::unsupported, "the Vulkan loader is older than 1.3"};
 }
 
+// The layer with synchronization validation, and its messages from the first call on. Points into itself.
+struct ValidationChain {
+  explicit ValidationChain(Device::State& state) : messenger(messenger_info(state)) {
+    features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
+    features.pNext = &messenger;
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = &synchronization;
+  }
+  ValidationChain(const ValidationChain&) = delete;
+  ValidationChain& operator=(const ValidationChain&) = delete;
+  VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  VkDebugUtilsMessengerCreateInfoEXT messenger;
+  VkValidationFeaturesEXT features{};
+};
+
+Status check_layer(const DeviceFunctions& vk) {
+  if (has_layer(vk, kValidationLayer)) return Done{};
+  return Error{ErrorCode::unsupported,
+               "the validation layer VK_LAYER_KHRONOS_validation is not installed; install the package `vulkan-validationlayers`"};
+}
+
+Status load_instance(Device::State& state, PFN_vkGetInstanceProcAddr get) {
+  const char* missing = load_instance_functions(state.vk, get, state.instance);
+  if (missing == nullptr) return Done{};
+  if (state.vk.DestroyInstance != nullptr) state.vk.DestroyInstance(state.instance, nullptr);
+  state.instance = VK_NULL_HANDLE;
+  return Error{ErrorCode::unsupported, std::string("the Vulkan instance lacks ") + missing};
+}
+
+Status create_messenger(Device::State& state, const ValidationChain& chain) {
+  state.validating = state.classic_render_passes = true;
+  return check(state.vk.CreateDebugUtilsMessengerEXT(state.instance, &chain.messenger, nullptr, &state.messenger), "vkCreateDebugUtilsMessengerEXT",
+               {});
+}
+
 Status create_instance(Device::State& state, const DeviceOptions& options, PFN_vkGetInstanceProcAddr get) {
   RG_TRY(check_loader_version(state.vk));
-  if (options.validate && !has_layer(state.vk, kValidationLayer))
-    return Error{ErrorCode::unsupported, "the validation layer VK_LAYER_KHRONOS_validation is not installed; install the package `vulkan-validationlayers`"};
-  std::vector<const char*> extensions = options.instance_extensions;
-  if (options.validate || has_instance_extension(state.vk, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (options.validate) RG_TRY(check_layer(state.vk));
   if (options.validate) ask_for_submit_time_checks();
+  std::vector<const char*> extensions = options.instance_extensions;
+  const bool labels = options.validate || has_instance_extension(state.vk, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+  if (labels) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
   VkApplicationInfo application{};
   application.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO;
   application.pEngineName = "rgc";
   application.apiVersion = VK_API_VERSION_1_3;
-  const VkValidationFeatureEnableEXT enabled = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-  VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(state);
-  VkValidationFeaturesEXT features{};
-  features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-  features.pNext = &messenger;
-  features.enabledValidationFeatureCount = 1;
-  features.pEnabledValidationFeatures = &enabled;
+  const ValidationChain chain(state);
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
-  info.pNext = options.validate ? &features : nullptr;
+  info.pNext = options.validate ? &chain.features : nullptr;
   info.pApplicationInfo = &application;
   info.enabledLayerCount = options.validate ? 1 : 0;
   info.ppEnabledLayerNames = &kValidationLayer;
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   RG_TRY(check(state.vk.CreateInstance(&info, nullptr, &state.instance), "vkCreateInstance", {}));
-  if (const char* missing = load_instance_functions(state.vk, get, state.instance)) {
-    if (state.vk.DestroyInstance != nullptr) state.vk.DestroyInstance(state.instance, nullptr);
-    state.instance = VK_NULL_HANDLE;
-    return Error{ErrorCode::unsupported, std::string("the Vulkan instance lacks ") + missing};
-  }
-  if (!options.validate) return Done{};
-  state.validating = state.classic_render_passes = true;
-  return check(state.vk.CreateDebugUtilsMessengerEXT(state.instance, &messenger, nullptr, &state.messenger), "vkCreateDebugUtilsMessengerEXT", {});
+  RG_TRY(load_instance(state, get));
+  return options.validate ? create_messenger(state, chain) : Status(Done{});
 }
 
 std::vector<VkPhysicalDevice> physical_devices(const Device::State& state) {
@@ -152,8 +174,8 @@ std::string unsuitable(const Device::State& state, VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   state.vk.GetPhysicalDeviceProperties(physical, &properties);
   if (properties.apiVersion < VK_API_VERSION_1_3)
-    return "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) +
-           " instead of 1.3";
+    return "Vulkan " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "." +
+           std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + " instead of 1.3";
   if (universal_family(state, physical) == UINT32_MAX) return "no queue for graphics and compute";
   FeatureChain available;
   state.vk.GetPhysicalDeviceFeatures2(physical, &available.core);
@@ -173,11 +195,16 @@ int rank(const Device::State& state, VkPhysicalDevice physical) {
   VkPhysicalDeviceProperties properties;
   state.vk.GetPhysicalDeviceProperties(physical, &properties);
   switch (properties.deviceType) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
-    default: return 0;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 1;
+    default:
+      return 0;
   }
 }
 
@@ -204,20 +231,29 @@ Status choose_physical_device(Device::State& state, int index) {
   return Error{ErrorCode::unsupported, "no suitable Vulkan device" + reasons};
 }
 
-Status create_device(Device::State& state, const DeviceOptions& options) {
-  state.queue_family = universal_family(state, state.physical);
-  FeatureChain available, wanted;
-  state.vk.GetPhysicalDeviceFeatures2(state.physical, &available.core);
-  enable_available(wanted, available);
-  state.sampler_anisotropy = wanted.core.features.samplerAnisotropy == VK_TRUE;
-  state.multi_draw_indirect = wanted.core.features.multiDrawIndirect == VK_TRUE;
+Result<std::vector<const char*>> device_extensions(Device::State& state, const DeviceOptions& options) {
   std::vector<const char*> extensions = options.device_extensions;
   for (const char* extension : extensions)
     if (!has_device_extension(state.vk, state.physical, extension))
       return Error{ErrorCode::unsupported, std::string("the device lacks the extension ") + extension};
   state.load_op_none = has_device_extension(state.vk, state.physical, kLoadOpNone);
   if (state.load_op_none) extensions.push_back(kLoadOpNone);
+  return extensions;
+}
 
+void enable_features(Device::State& state, FeatureChain& wanted) {
+  FeatureChain available;
+  state.vk.GetPhysicalDeviceFeatures2(state.physical, &available.core);
+  enable_available(wanted, available);
+  state.sampler_anisotropy = wanted.core.features.samplerAnisotropy == VK_TRUE;
+  state.multi_draw_indirect = wanted.core.features.multiDrawIndirect == VK_TRUE;
+}
+
+Status create_device(Device::State& state, const DeviceOptions& options) {
+  FeatureChain wanted;
+  enable_features(state, wanted);
+  const Result<std::vector<const char*>> extensions = device_extensions(state, options);
+  if (!extensions) return extensions.error();
   const float priority = 1;
   VkDeviceQueueCreateInfo queue{};
   queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
@@ -229,8 +265,8 @@ Status create_device(Device::State& state, const DeviceOptions& options) {
   info.pNext = &wanted.core;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
-  info.ppEnabledExtensionNames = extensions.data();
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions->size());
+  info.ppEnabledExtensionNames = extensions->data();
   RG_TRY(check(state.vk.CreateDevice(state.physical, &info, nullptr, &state.device), "vkCreateDevice", {}));
   if (const char* missing = load_device_functions(state.vk, state.device))
     return Error{ErrorCode::unsupported, std::string("the Vulkan device lacks ") + missing};
@@ -248,6 +284,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
   if (!get) return get.error();
   RG_TRY(create_instance(*state, options, *get));
   RG_TRY(choose_physical_device(*state, options.device));
+  state->queue_family = universal_family(*state, state->physical);
   RG_TRY(create_device(*state, options));
   describe_physical_device(*state);
   return Device(std::move(state));

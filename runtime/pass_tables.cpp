@@ -60,7 +60,8 @@ Status check_dispatch(const Context& context, const Pass& pass, const PassTable&
   const uint32_t groups[] = {table.x, table.y, table.z};
   for (int axis = 0; axis < 3; ++axis)
     if (groups[axis] > context.device.limits.maxComputeWorkGroupCount[axis])
-      return Error{ErrorCode::unsupported, "pass `" + std::string(pass.name) + "`: " + std::to_string(groups[axis]) + " groups on one axis; this device allows " +
+      return Error{ErrorCode::unsupported, "pass `" + std::string(pass.name) + "`: " + std::to_string(groups[axis]) +
+                                               " groups on one axis; this device allows " +
                                                std::to_string(context.device.limits.maxComputeWorkGroupCount[axis])};
   return Done{};
 }

@@ -14,8 +14,7 @@ constexpr uint32_t kPassSet = static_cast<uint32_t>(SetRole::pass);
 
 Result<UniqueSetLayout> create_set_layout(const Context& context, std::span<const Binding> bindings, std::string_view name) {
   std::vector<VkDescriptorSetLayoutBinding> rows;
-  for (const Binding& binding : bindings)
-    rows.push_back({binding.binding, static_cast<VkDescriptorType>(binding.type), 1, binding.stages, nullptr});
+  for (const Binding& binding : bindings) rows.push_back({binding.binding, static_cast<VkDescriptorType>(binding.type), 1, binding.stages, nullptr});
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.bindingCount = static_cast<uint32_t>(rows.size());
@@ -150,7 +149,8 @@ void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsS
 }
 
 void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
-  for (uint32_t i = 0; i < rendering.color_count; ++i) state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
+  for (uint32_t i = 0; i < rendering.color_count; ++i)
+    state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
   state.blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
   state.blend.attachmentCount = static_cast<uint32_t>(state.blends.size());
   state.blend.pAttachments = state.blends.data();
@@ -162,7 +162,8 @@ void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& ren
 
 void fill_rendering(const Context& context, const Rendering& rendering, const PassObjects& pass, GraphicsState& state) {
   auto format = [&](Index attachment) {
-    return attachment == kNone ? VK_FORMAT_UNDEFINED : static_cast<VkFormat>(context.plan.resources[context.plan.attachments[attachment].ref.resource].format);
+    return attachment == kNone ? VK_FORMAT_UNDEFINED
+                               : static_cast<VkFormat>(context.plan.resources[context.plan.attachments[attachment].ref.resource].format);
   };
   state.rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
   state.rendering.viewMask = rendering.view_mask;
@@ -196,7 +197,8 @@ Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipel
   info.pDynamicState = &state.dynamic;
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateGraphicsPipelines", pass.name));
+  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateGraphicsPipelines",
+               pass.name));
   return handle;
 }
 
@@ -206,7 +208,8 @@ Result<VkPipeline> create_compute(const Context& context, const PassObjects& pas
   info.stage = stages[0];
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateComputePipelines", pass.name));
+  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateComputePipelines",
+               pass.name));
   return handle;
 }
 
@@ -228,7 +231,7 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   out.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   for (const Attachment& attachment : context.plan.attachments.subspan(rendering.first_color, rendering.color_count))
     out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
-                                                                  : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
+                                                                 : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
   Result<UniqueRenderPass> render_pass = create_render_pass(context, rendering, pass.name);
   if (!render_pass) return render_pass.error();

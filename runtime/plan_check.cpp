@@ -17,7 +17,9 @@ class Checker {
     fault_.append("plan `").append(plan_.name).append("`: ").append(table).append(" ").append(std::to_string(row)).append(": ").append(what);
   }
   void index(Index value, size_t size, std::string_view table, size_t row, std::string_view what) { that(value < size, table, row, what); }
-  void optional(Index value, size_t size, std::string_view table, size_t row, std::string_view what) { that(value == kNone || value < size, table, row, what); }
+  void optional(Index value, size_t size, std::string_view table, size_t row, std::string_view what) {
+    that(value == kNone || value < size, table, row, what);
+  }
   void range(Index first, uint32_t count, size_t size, std::string_view table, size_t row, std::string_view what) {
     that(count == 0 || (first <= size && count <= size - first), table, row, what);
   }
@@ -53,7 +55,8 @@ void check_exprs(const Plan& plan, Checker& c) {
 }
 
 void check_resource(const Resource& resource, size_t i, Checker& c) {
-  c.that(resource.kind <= ResourceKind::buffer && resource.lifetime <= Lifetime::readback && resource.dimension <= Dimension::cube, "resource", i, "kind");
+  c.that(resource.kind <= ResourceKind::buffer && resource.lifetime <= Lifetime::readback && resource.dimension <= Dimension::cube, "resource", i,
+         "kind");
   for (const Index expr : {resource.width, resource.height, resource.depth, resource.bytes}) c.expr(expr, "resource", i, "size");
   c.that(resource.lifetime != Lifetime::imported || resource.import_slot < 4096, "resource", i, "import slot");
   c.that(resource.lifetime != Lifetime::readback || resource.kind == ResourceKind::buffer, "resource", i, "only buffers are read back");
@@ -85,7 +88,8 @@ void check_released(const Plan& plan, Checker& c) {
   std::vector<bool> released(plan.resources.size());
   for (const Release& release : plan.releases)
     if (release.resource < released.size()) released[release.resource] = true;
-  for (size_t i = 0; i < plan.acquires.size(); ++i) c.that(plan.acquires[i].resource < released.size() && released[plan.acquires[i].resource], "acquire", i, "no release");
+  for (size_t i = 0; i < plan.acquires.size(); ++i)
+    c.that(plan.acquires[i].resource < released.size() && released[plan.acquires[i].resource], "acquire", i, "no release");
 }
 
 void check_aliases(const Plan& plan, Checker& c) {
@@ -94,7 +98,8 @@ void check_aliases(const Plan& plan, Checker& c) {
     const Acquire& acquire = plan.acquires[i];
     c.index(acquire.resource, plan.resources.size(), "acquire", i, "resource");
     c.index(acquire.group, plan.groups.size(), "acquire", i, "group");
-    if (acquire.image_barrier != kNone) c.range(acquire.image_barrier, acquire.image_barriers, plan.image_barriers.size(), "acquire", i, "image barriers");
+    if (acquire.image_barrier != kNone)
+      c.range(acquire.image_barrier, acquire.image_barriers, plan.image_barriers.size(), "acquire", i, "image barriers");
   }
   for (size_t i = 0; i < plan.releases.size(); ++i) c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
   for (size_t i = 0; i < plan.alias_pairs.size(); ++i) {
@@ -160,7 +165,8 @@ void check_transfer(const Plan& plan, size_t i, Checker& c) {
   const Transfer& t = plan.transfers[i];
   c.bytes(t.src_bytes, "transfer", i);
   c.bytes(t.dst_bytes, "transfer", i);
-  const bool from_image = t.kind == TransferKind::copy_image || t.kind == TransferKind::blit || t.kind == TransferKind::resolve || t.kind == TransferKind::copy_image_to_buffer;
+  const bool from_image = t.kind == TransferKind::copy_image || t.kind == TransferKind::blit || t.kind == TransferKind::resolve ||
+                          t.kind == TransferKind::copy_image_to_buffer;
   const bool from_buffer = t.kind == TransferKind::copy_buffer || t.kind == TransferKind::copy_buffer_to_image;
   if (from_image) c.ref(t.src, ResourceKind::image, "transfer", i, "source");
   if (from_buffer) c.ref(t.src, ResourceKind::buffer, "transfer", i, "source");
@@ -181,7 +187,8 @@ void check_work(const Plan& plan, const Pass& pass, size_t i, Checker& c) {
   c.that(work.kind <= WorkKind::transfers, "pass", i, "work");
   for (const Index expr : {work.x, work.y, work.z, work.arguments_offset}) c.expr(expr, "pass", i, "work size");
   if (indirect_work(work.kind)) c.ref(work.arguments, ResourceKind::buffer, "pass", i, "indirect arguments");
-  if (work.kind == WorkKind::draw_indirect_count || work.kind == WorkKind::draw_indexed_indirect_count) c.ref(work.counts, ResourceKind::buffer, "pass", i, "draw count");
+  if (work.kind == WorkKind::draw_indirect_count || work.kind == WorkKind::draw_indexed_indirect_count)
+    c.ref(work.counts, ResourceKind::buffer, "pass", i, "draw count");
   c.range(work.first_transfer, work.transfer_count, plan.transfers.size(), "pass", i, "transfers");
   if (work.kind == WorkKind::host) c.that(pass.host_slot < 65536, "pass", i, "host slot");
 }
@@ -243,8 +250,8 @@ void check_small_tables(const Plan& plan, Checker& c) {
 
 Status check_plan(const Plan& plan) {
   if (plan.version != kPlanVersion)
-    return Error{ErrorCode::invalid_plan, "plan `" + std::string(plan.name) + "` has version " + std::to_string(plan.version) + "; this runtime runs version " +
-                                              std::to_string(kPlanVersion)};
+    return Error{ErrorCode::invalid_plan, "plan `" + std::string(plan.name) + "` has version " + std::to_string(plan.version) +
+                                              "; this runtime runs version " + std::to_string(kPlanVersion)};
   Checker checker(plan);
   check_exprs(plan, checker);
   for (size_t i = 0; i < plan.resources.size(); ++i) check_resource(plan.resources[i], i, checker);

@@ -51,7 +51,8 @@ void poison_images(const Sized& sized, Index resource, GroupTable& group, Poison
 
 void poison_buffer(const Acquire& acquire, Index resource, GroupTable& group, PoisonTable& poison) {
   poison.targets.push_back({resource, {}});
-  group.memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, acquire.stages, acquire.accesses});
+  group.memory.push_back(
+      {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, acquire.stages, acquire.accesses});
   for (VkDependencyInfo& info : group.infos) {
     info.memoryBarrierCount = static_cast<uint32_t>(group.memory.size());
     info.pMemoryBarriers = group.memory.data();
@@ -93,8 +94,8 @@ void add_poison(const Context& context, Sized& sized) {
 }
 
 void record_poison(const Context& context, const Sized& sized, const PoisonTable& poison, VkCommandBuffer commands) {
-  const VkMemoryBarrier2 before{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,     nullptr, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  const VkMemoryBarrier2 before{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr,     VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                VK_ACCESS_2_MEMORY_WRITE_BIT,       kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT};
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   info.memoryBarrierCount = 1;

@@ -7,7 +7,8 @@ namespace rg {
 namespace {
 
 Status check_readback(const Plan& plan, Index resource, uint64_t frames) {
-  if (resource >= plan.resources.size() || plan.resources[resource].lifetime != Lifetime::readback || plan.resources[resource].kind != ResourceKind::buffer)
+  if (resource >= plan.resources.size() || plan.resources[resource].lifetime != Lifetime::readback ||
+      plan.resources[resource].kind != ResourceKind::buffer)
     return Error{ErrorCode::invalid_argument, "resource " + std::to_string(resource) + " is no readback buffer"};
   if (frames == 0) return Error{ErrorCode::invalid_argument, "`" + std::string(plan.resources[resource].name) + "`: no frame was executed yet"};
   return Done{};

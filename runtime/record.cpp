@@ -36,7 +36,8 @@ void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index
 void bind_engine_set(const FrameRecording& r, const Pass& pass, const PassObjects& objects) {
   if (pass.engine_set == kNone) return;
   const auto role = static_cast<uint32_t>(r.state.context.plan.engine_sets[pass.engine_set].role);
-  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0, nullptr);
+  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0,
+                                             nullptr);
 }
 
 VkDescriptorSet bind_pass_set(const FrameRecording& r, const PassObjects& objects, PassTable& table) {
@@ -64,7 +65,8 @@ BufferSpan work_buffer(const FrameRecording& r, Ref ref, VkDeviceSize offset) {
 template <class Draw>
 void draw_indirect(const FrameRecording& r, Draw draw, const Work& work, const PassTable& table) {
   const BufferSpan arguments = work_buffer(r, work.arguments, table.arguments_offset);
-  if (r.state.context.device.multi_draw_indirect || work.max_draws <= 1) return draw(r.commands, arguments.buffer, arguments.offset, work.max_draws, work.stride);
+  if (r.state.context.device.multi_draw_indirect || work.max_draws <= 1)
+    return draw(r.commands, arguments.buffer, arguments.offset, work.max_draws, work.stride);
   for (uint32_t i = 0; i < work.max_draws; ++i) draw(r.commands, arguments.buffer, arguments.offset + VkDeviceSize{i} * work.stride, 1, work.stride);
 }
 
@@ -91,15 +93,24 @@ void call_host(const FrameRecording& r, const Pass& pass, const PassTable& table
 void record_work(const FrameRecording& r, const Pass& pass, const PassTable& table, VkDescriptorSet set) {
   const DeviceFunctions& vk = r.state.context.vk();
   switch (pass.work.kind) {
-    case WorkKind::none: return;
-    case WorkKind::host: return call_host(r, pass, table, set);
-    case WorkKind::draw: return vk.CmdDraw(r.commands, table.x, table.y, 0, 0);
-    case WorkKind::draw_indirect: return draw_indirect(r, vk.CmdDrawIndirect, pass.work, table);
-    case WorkKind::draw_indexed_indirect: return draw_indirect(r, vk.CmdDrawIndexedIndirect, pass.work, table);
-    case WorkKind::draw_indirect_count: return draw_indirect_count(r, vk.CmdDrawIndirectCount, pass.work, table);
-    case WorkKind::draw_indexed_indirect_count: return draw_indirect_count(r, vk.CmdDrawIndexedIndirectCount, pass.work, table);
-    case WorkKind::dispatch: return dispatch(r, table);
-    case WorkKind::dispatch_indirect: return dispatch_indirect(r, pass.work, table);
+    case WorkKind::none:
+      return;
+    case WorkKind::host:
+      return call_host(r, pass, table, set);
+    case WorkKind::draw:
+      return vk.CmdDraw(r.commands, table.x, table.y, 0, 0);
+    case WorkKind::draw_indirect:
+      return draw_indirect(r, vk.CmdDrawIndirect, pass.work, table);
+    case WorkKind::draw_indexed_indirect:
+      return draw_indirect(r, vk.CmdDrawIndexedIndirect, pass.work, table);
+    case WorkKind::draw_indirect_count:
+      return draw_indirect_count(r, vk.CmdDrawIndirectCount, pass.work, table);
+    case WorkKind::draw_indexed_indirect_count:
+      return draw_indirect_count(r, vk.CmdDrawIndexedIndirectCount, pass.work, table);
+    case WorkKind::dispatch:
+      return dispatch(r, table);
+    case WorkKind::dispatch_indirect:
+      return dispatch_indirect(r, pass.work, table);
     case WorkKind::transfers:
       for (const TransferTable& transfer : table.transfers)
         record_transfer(r.state.context, *r.state.sized, r.state.imports, transfer, r.commands, r.frame);

@@ -144,7 +144,8 @@ void list_framebuffer_views(const Context& context, const Rendering& plan, Rende
   for (uint32_t i = 0; i < plan.color_count; ++i) add(table.views[i], table.attachments[i].clearValue);
   if (depth_or_stencil(plan) != kNone) {
     VkClearValue clear = table.attachments[plan.color_count].clearValue;
-    if (plan.depth != kNone && plan.stencil != kNone) clear.depthStencil.stencil = table.attachments[plan.color_count + 1].clearValue.depthStencil.stencil;
+    if (plan.depth != kNone && plan.stencil != kNone)
+      clear.depthStencil.stencil = table.attachments[plan.color_count + 1].clearValue.depthStencil.stencil;
     add(table.views[plan.color_count], clear);
   }
   for (uint32_t i = 0; i < plan.color_count; ++i)
@@ -156,10 +157,14 @@ void list_framebuffer_views(const Context& context, const Rendering& plan, Rende
 
 VkAttachmentLoadOp load_op(const Device::State& device, LoadOp op) {
   switch (op) {
-    case LoadOp::clear: return VK_ATTACHMENT_LOAD_OP_CLEAR;
-    case LoadOp::dont_care: return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    case LoadOp::none: return device.load_op_none ? VK_ATTACHMENT_LOAD_OP_NONE_EXT : VK_ATTACHMENT_LOAD_OP_LOAD;
-    default: return VK_ATTACHMENT_LOAD_OP_LOAD;
+    case LoadOp::clear:
+      return VK_ATTACHMENT_LOAD_OP_CLEAR;
+    case LoadOp::dont_care:
+      return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    case LoadOp::none:
+      return device.load_op_none ? VK_ATTACHMENT_LOAD_OP_NONE_EXT : VK_ATTACHMENT_LOAD_OP_LOAD;
+    default:
+      return VK_ATTACHMENT_LOAD_OP_LOAD;
   }
 }
 

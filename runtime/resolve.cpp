@@ -69,7 +69,8 @@ VkDeviceSize packed_bytes(const Context& context, const Sized& sized, Index reso
   VkDeviceSize bytes = 0;
   for (uint32_t mip = clamped.baseMipLevel; mip < clamped.baseMipLevel + clamped.levelCount; ++mip) {
     const VkExtent3D extent = mip_extent(sized.resources[resource].extent, mip);
-    const VkDeviceSize columns = (extent.width + info.block_width - 1) / info.block_width, rows = (extent.height + info.block_height - 1) / info.block_height;
+    const VkDeviceSize columns = (extent.width + info.block_width - 1) / info.block_width,
+                       rows = (extent.height + info.block_height - 1) / info.block_height;
     bytes += columns * rows * extent.depth * clamped.layerCount * copy_bytes(format, aspect);
   }
   return bytes;

@@ -14,10 +14,14 @@ namespace {
 
 uint32_t physical_copies(const Context& context, const Resource& resource) {
   switch (resource.lifetime) {
-    case Lifetime::imported: return 0;
-    case Lifetime::history: return std::max(resource.copies, 1u);
-    case Lifetime::readback: return context.frames_in_flight;  // the host reads one while the device writes another
-    default: return 1;
+    case Lifetime::imported:
+      return 0;
+    case Lifetime::history:
+      return std::max(resource.copies, 1u);
+    case Lifetime::readback:
+      return context.frames_in_flight;  // the host reads one while the device writes another
+    default:
+      return 1;
   }
 }
 
@@ -29,21 +33,26 @@ uint32_t full_chain(const VkExtent3D& extent) { return static_cast<uint32_t>(std
 
 uint32_t dimension_limit(const VkPhysicalDeviceLimits& limits, Dimension dimension) {
   switch (dimension) {
-    case Dimension::d1: return limits.maxImageDimension1D;
-    case Dimension::d3: return limits.maxImageDimension3D;
-    case Dimension::cube: return limits.maxImageDimensionCube;
-    default: return limits.maxImageDimension2D;
+    case Dimension::d1:
+      return limits.maxImageDimension1D;
+    case Dimension::d3:
+      return limits.maxImageDimension3D;
+    case Dimension::cube:
+      return limits.maxImageDimensionCube;
+    default:
+      return limits.maxImageDimension2D;
   }
 }
 
 Status check_image_limits(const Context& context, const Resource& resource, const SizedResource& sized) {
-  const uint32_t limit = dimension_limit(context.device.limits, resource.dimension), largest = std::max({sized.extent.width, sized.extent.height, sized.extent.depth});
+  const uint32_t limit = dimension_limit(context.device.limits, resource.dimension),
+                 largest = std::max({sized.extent.width, sized.extent.height, sized.extent.depth});
   if (largest > limit)
-    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: a side of " + std::to_string(largest) + " texels; this device allows " +
-                                             std::to_string(limit)};
+    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: a side of " + std::to_string(largest) +
+                                             " texels; this device allows " + std::to_string(limit)};
   if (sized.layers > context.device.limits.maxImageArrayLayers)
-    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: " + std::to_string(sized.layers) + " layers; this device allows " +
-                                             std::to_string(context.device.limits.maxImageArrayLayers)};
+    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: " + std::to_string(sized.layers) +
+                                             " layers; this device allows " + std::to_string(context.device.limits.maxImageArrayLayers)};
   return Done{};
 }
 
@@ -97,11 +106,12 @@ VkImageCreateInfo image_info(const Context& context, const Resource& resource, c
 
 Status check_image_support(const Context& context, const Resource& resource, const VkImageCreateInfo& info) {
   VkImageFormatProperties properties;
-  const VkResult result = context.vk().GetPhysicalDeviceImageFormatProperties(context.device.physical, info.format, info.imageType, info.tiling, info.usage,
-                                                                              info.flags, &properties);
+  const VkResult result = context.vk().GetPhysicalDeviceImageFormatProperties(context.device.physical, info.format, info.imageType, info.tiling,
+                                                                              info.usage, info.flags, &properties);
   if (result == VK_ERROR_FORMAT_NOT_SUPPORTED || (result == VK_SUCCESS && (properties.sampleCounts & info.samples) == 0))
-    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: this device does not support format " + std::to_string(info.format) +
-                                             " with usage " + std::to_string(info.usage) + " and " + std::to_string(info.samples) + " samples"};
+    return Error{ErrorCode::unsupported, "image `" + std::string(resource.name) + "`: this device does not support format " +
+                                             std::to_string(info.format) + " with usage " + std::to_string(info.usage) + " and " +
+                                             std::to_string(info.samples) + " samples"};
   return check(result, "vkGetPhysicalDeviceImageFormatProperties", resource.name);
 }
 
@@ -132,7 +142,8 @@ Status create_buffer(const Context& context, const Resource& resource, const Siz
 }
 
 void size_image(const Context& context, const Resource& resource, Sized& sized, SizedResource& out) {
-  out.extent = {dimension_value(context, sized, resource.width), dimension_value(context, sized, resource.height), dimension_value(context, sized, resource.depth)};
+  out.extent = {dimension_value(context, sized, resource.width), dimension_value(context, sized, resource.height),
+                dimension_value(context, sized, resource.depth)};
   out.mips = std::clamp(resource.mips, 1u, full_chain(out.extent));
   out.layers = std::max(resource.layers, 1u);
 }
@@ -190,7 +201,8 @@ Result<HostBuffer> create_host_buffer(Device::State& device, VkDeviceSize bytes,
   name_object(device, VK_OBJECT_TYPE_BUFFER, buffer, name);
   VkMemoryRequirements requirements;
   device.vk.GetBufferMemoryRequirements(device.device, buffer, &requirements);
-  const uint32_t type = find_memory_type(device, requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, preferred);
+  const uint32_t type =
+      find_memory_type(device, requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT, preferred);
   Result<UniqueMemory> memory = allocate_memory(device, requirements.size, type, name);
   if (!memory) return memory.error();
   out.memory = std::move(*memory);

@@ -12,7 +12,11 @@ Status size_resources(const Context& context, Sized& sized);
 Status create_resources(const Context& context, Sized& sized);
 
 // A buffer of its own in mapped host memory.
-struct HostBuffer { UniqueMemory memory; UniqueBuffer buffer; std::byte* mapped = nullptr; };
+struct HostBuffer {
+  UniqueMemory memory;
+  UniqueBuffer buffer;
+  std::byte* mapped = nullptr;
+};
 Result<HostBuffer> create_host_buffer(Device::State& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
                                       std::string_view name);
 

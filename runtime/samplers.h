@@ -1,3 +1,4 @@
+// Samplers of a plan: they depend on nothing but it.
 #pragma once
 
 #include "runtime/graph_state.h"

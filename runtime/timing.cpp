@@ -37,11 +37,13 @@ std::vector<PassTime> GraphInstance::pass_times() {
   const size_t passes = state_->objects.passes.size();
   if (slot == nullptr || !slot->queries || passes == 0) return {};
   std::vector<std::array<uint64_t, 2>> stamps(passes);
-  const VkResult result = state_->context.vk().GetQueryPoolResults(state_->context.device.device, slot->queries.get(), 0, static_cast<uint32_t>(2 * passes),
-                                                                   stamps.size() * sizeof stamps[0], stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
+  const VkResult result =
+      state_->context.vk().GetQueryPoolResults(state_->context.device.device, slot->queries.get(), 0, static_cast<uint32_t>(2 * passes),
+                                               stamps.size() * sizeof stamps[0], stamps.data(), sizeof(uint64_t), VK_QUERY_RESULT_64_BIT);
   if (result != VK_SUCCESS) return {};
   std::vector<PassTime> times;
-  for (size_t i = 0; i < passes; ++i) times.push_back({state_->objects.passes[i].name, elapsed_ms(state_->context.device, stamps[i][0], stamps[i][1])});
+  for (size_t i = 0; i < passes; ++i)
+    times.push_back({state_->objects.passes[i].name, elapsed_ms(state_->context.device, stamps[i][0], stamps[i][1])});
   return times;
 }
 

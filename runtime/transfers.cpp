@@ -26,9 +26,13 @@ VkImageSubresourceLayers layers_at(const VkImageSubresourceRange& range, uint32_
   return {range.aspectMask, range.baseMipLevel + step, range.baseArrayLayer, range.layerCount};
 }
 
-VkExtent3D smaller(const VkExtent3D& a, const VkExtent3D& b) { return {std::min(a.width, b.width), std::min(a.height, b.height), std::min(a.depth, b.depth)}; }
+VkExtent3D smaller(const VkExtent3D& a, const VkExtent3D& b) {
+  return {std::min(a.width, b.width), std::min(a.height, b.height), std::min(a.depth, b.depth)};
+}
 
-VkOffset3D corner(const VkExtent3D& extent) { return {static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), static_cast<int32_t>(extent.depth)}; }
+VkOffset3D corner(const VkExtent3D& extent) {
+  return {static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), static_cast<int32_t>(extent.depth)};
+}
 
 // Both sides of a transfer between images, clamped to what exists.
 struct ImagePair {
@@ -100,18 +104,25 @@ void add_update(const Context& context, const Sized& sized, const Transfer& tran
 
 void add_regions(const Context& context, const Sized& sized, const Transfer& transfer, TransferTable& table) {
   switch (transfer.kind) {
-    case TransferKind::copy_image: return add_copies(image_pair(context, sized, transfer), table);
-    case TransferKind::blit: return add_blits(image_pair(context, sized, transfer), table);
-    case TransferKind::resolve: return add_resolves(image_pair(context, sized, transfer), table);
+    case TransferKind::copy_image:
+      return add_copies(image_pair(context, sized, transfer), table);
+    case TransferKind::blit:
+      return add_blits(image_pair(context, sized, transfer), table);
+    case TransferKind::resolve:
+      return add_resolves(image_pair(context, sized, transfer), table);
     case TransferKind::copy_buffer_to_image:
       return add_buffer_copies(context, sized, transfer.dst.resource, transfer.dst_range, table.src_bytes.offset, table);
     case TransferKind::copy_image_to_buffer:
       return add_buffer_copies(context, sized, transfer.src.resource, transfer.src_range, table.dst_bytes.offset, table);
     case TransferKind::clear_color:
-    case TransferKind::clear_depth_stencil: table.range = image_range(context, sized, transfer.dst.resource, transfer.dst_range); return;
-    case TransferKind::update: return add_update(context, sized, transfer, table);
+    case TransferKind::clear_depth_stencil:
+      table.range = image_range(context, sized, transfer.dst.resource, transfer.dst_range);
+      return;
+    case TransferKind::update:
+      return add_update(context, sized, transfer, table);
     case TransferKind::copy_buffer:
-    case TransferKind::fill: return;
+    case TransferKind::fill:
+      return;
   }
 }
 
@@ -130,7 +141,10 @@ struct Recorder {
   BufferSpan dst_buffer() const { return buffer_at(sized, imports, context.plan, table.transfer->dst, table.dst_bytes, frame); }
 };
 
-template <class Region> uint32_t count(const std::vector<Region>& regions) { return static_cast<uint32_t>(regions.size()); }
+template <class Region>
+uint32_t count(const std::vector<Region>& regions) {
+  return static_cast<uint32_t>(regions.size());
+}
 
 VkDeviceSize bytes_from(const Sized& sized, Index resource, const ByteRange& bytes) {
   const VkDeviceSize whole = sized.resources[resource].bytes;
@@ -140,8 +154,8 @@ VkDeviceSize bytes_from(const Sized& sized, Index resource, const ByteRange& byt
 
 void record_copy_buffer(const Recorder& r) {
   const BufferSpan src = r.src_buffer(), dst = r.dst_buffer();
-  const VkDeviceSize bytes =
-      std::min(bytes_from(r.sized, r.table.transfer->src.resource, {r.table.src_bytes.offset, src.size}), bytes_from(r.sized, r.table.transfer->dst.resource, {r.table.dst_bytes.offset, dst.size}));
+  const VkDeviceSize bytes = std::min(bytes_from(r.sized, r.table.transfer->src.resource, {r.table.src_bytes.offset, src.size}),
+                                      bytes_from(r.sized, r.table.transfer->dst.resource, {r.table.dst_bytes.offset, dst.size}));
   const VkBufferCopy copy{src.offset, dst.offset, bytes};
   if (bytes != 0 && bytes != VK_WHOLE_SIZE) r.context.vk().CmdCopyBuffer(r.commands, src.buffer, dst.buffer, 1, &copy);
 }
@@ -171,7 +185,8 @@ void record_update(const Recorder& r) {
     std::array<VkBufferImageCopy, kMostMips> copies;
     const size_t mips = std::min(r.table.buffer_copies.size(), kMostMips);
     for (size_t i = 0; i < mips; ++i) copies[i] = r.table.buffer_copies[i], copies[i].bufferOffset += base;
-    r.context.vk().CmdCopyBufferToImage(r.commands, r.sized.ring.buffer.get(), r.dst_image(), r.table.dst_layout, static_cast<uint32_t>(mips), copies.data());
+    r.context.vk().CmdCopyBufferToImage(r.commands, r.sized.ring.buffer.get(), r.dst_image(), r.table.dst_layout, static_cast<uint32_t>(mips),
+                                        copies.data());
   } else {
     const BufferSpan dst = r.dst_buffer();
     const VkBufferCopy copy{base, dst.offset, r.table.upload_now};
@@ -197,18 +212,21 @@ void record_buffer_image(const Recorder& r) {
 
 void record_copy_image(const Recorder& r) {
   if (r.table.copies.empty()) return;
-  r.context.vk().CmdCopyImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.copies), r.table.copies.data());
+  r.context.vk().CmdCopyImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.copies),
+                              r.table.copies.data());
 }
 
 void record_blit(const Recorder& r) {
   if (r.table.blits.empty()) return;
   const VkFilter filter = r.table.transfer->linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-  r.context.vk().CmdBlitImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.blits), r.table.blits.data(), filter);
+  r.context.vk().CmdBlitImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.blits),
+                              r.table.blits.data(), filter);
 }
 
 void record_resolve(const Recorder& r) {
   if (r.table.resolves.empty()) return;
-  r.context.vk().CmdResolveImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.resolves), r.table.resolves.data());
+  r.context.vk().CmdResolveImage(r.commands, r.src_image(), r.table.src_layout, r.dst_image(), r.table.dst_layout, count(r.table.resolves),
+                                 r.table.resolves.data());
 }
 
 }  // namespace
@@ -232,8 +250,8 @@ namespace {
 Status write_update(const Context& context, Sized& sized, TransferTable& table, std::span<const std::byte> bytes, uint64_t frame) {
   const bool exact = is_image(context, table.transfer->dst);
   if (bytes.size() > table.upload_bytes || (exact && bytes.size() != table.upload_bytes))
-    return Error{ErrorCode::invalid_argument, "update of `" + std::string(context.plan.resources[table.transfer->dst.resource].name) + "`: " +
-                                                  std::to_string(bytes.size()) + " bytes for " + std::to_string(table.upload_bytes)};
+    return Error{ErrorCode::invalid_argument, "update of `" + std::string(context.plan.resources[table.transfer->dst.resource].name) +
+                                                  "`: " + std::to_string(bytes.size()) + " bytes for " + std::to_string(table.upload_bytes)};
   table.upload_now = bytes.size();
   std::byte* section = sized.ring.mapped + frame % context.frames_in_flight * sized.ring.section;
   if (!bytes.empty()) std::memcpy(section + table.upload_offset, bytes.data(), bytes.size());
@@ -246,25 +264,34 @@ Status write_updates(const Context& context, Sized& sized, const FrameInputs& in
   for (size_t p = 0; p < sized.passes.size(); ++p) {
     if (!sized.passes[p].runs || (context.plan.passes[p].guard & ~inputs.conditions) != 0) continue;
     for (TransferTable& table : sized.passes[p].transfers)
-      if (table.transfer->kind == TransferKind::update) RG_TRY(write_update(context, sized, table, inputs.updates[table.transfer->update_slot], frame));
+      if (table.transfer->kind == TransferKind::update)
+        RG_TRY(write_update(context, sized, table, inputs.updates[table.transfer->update_slot], frame));
   }
   return Done{};
 }
 
-void record_transfer(const Context& context, const Sized& sized, const std::vector<Import>& imports, const TransferTable& transfer, VkCommandBuffer commands,
-                     uint64_t frame) {
+void record_transfer(const Context& context, const Sized& sized, const std::vector<Import>& imports, const TransferTable& transfer,
+                     VkCommandBuffer commands, uint64_t frame) {
   const Recorder recorder{context, sized, imports, transfer, commands, frame};
   switch (transfer.transfer->kind) {
-    case TransferKind::copy_image: return record_copy_image(recorder);
-    case TransferKind::copy_buffer: return record_copy_buffer(recorder);
+    case TransferKind::copy_image:
+      return record_copy_image(recorder);
+    case TransferKind::copy_buffer:
+      return record_copy_buffer(recorder);
     case TransferKind::copy_buffer_to_image:
-    case TransferKind::copy_image_to_buffer: return record_buffer_image(recorder);
-    case TransferKind::blit: return record_blit(recorder);
+    case TransferKind::copy_image_to_buffer:
+      return record_buffer_image(recorder);
+    case TransferKind::blit:
+      return record_blit(recorder);
     case TransferKind::clear_color:
-    case TransferKind::clear_depth_stencil: return record_clear(recorder);
-    case TransferKind::fill: return record_fill(recorder);
-    case TransferKind::update: return record_update(recorder);
-    case TransferKind::resolve: return record_resolve(recorder);
+    case TransferKind::clear_depth_stencil:
+      return record_clear(recorder);
+    case TransferKind::fill:
+      return record_fill(recorder);
+    case TransferKind::update:
+      return record_update(recorder);
+    case TransferKind::resolve:
+      return record_resolve(recorder);
   }
 }
 

@@ -11,7 +11,7 @@ std::vector<TransferTable> create_transfers(const Context& context, const Sized&
 // Copies the host's bytes of every update into this frame's section of the ring. Fails where they do not fit their target.
 Status write_updates(const Context& context, Sized& sized, const FrameInputs& inputs, uint64_t frame);
 
-void record_transfer(const Context& context, const Sized& sized, const std::vector<Import>& imports, const TransferTable& transfer, VkCommandBuffer commands,
-                     uint64_t frame);
+void record_transfer(const Context& context, const Sized& sized, const std::vector<Import>& imports, const TransferTable& transfer,
+                     VkCommandBuffer commands, uint64_t frame);
 
 }  // namespace rg

@@ -11,10 +11,14 @@ namespace {
 
 VkImageViewType view_type(const ViewRequest& request) {
   switch (request.dimension) {
-    case Dimension::d1: return request.arrayed ? VK_IMAGE_VIEW_TYPE_1D_ARRAY : VK_IMAGE_VIEW_TYPE_1D;
-    case Dimension::d3: return VK_IMAGE_VIEW_TYPE_3D;
-    case Dimension::cube: return request.arrayed ? VK_IMAGE_VIEW_TYPE_CUBE_ARRAY : VK_IMAGE_VIEW_TYPE_CUBE;
-    default: return request.arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    case Dimension::d1:
+      return request.arrayed ? VK_IMAGE_VIEW_TYPE_1D_ARRAY : VK_IMAGE_VIEW_TYPE_1D;
+    case Dimension::d3:
+      return VK_IMAGE_VIEW_TYPE_3D;
+    case Dimension::cube:
+      return request.arrayed ? VK_IMAGE_VIEW_TYPE_CUBE_ARRAY : VK_IMAGE_VIEW_TYPE_CUBE;
+    default:
+      return request.arrayed ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
   }
 }
 
@@ -48,7 +52,8 @@ VkImageViewUsageCreateInfo usage_info(const ViewRequest& request) {
 bool covers_image(const Resource& resource, const SizedResource& size, const ViewRequest& request, const VkImageViewCreateInfo& info) {
   const VkImageSubresourceRange& range = info.subresourceRange;
   const bool all = range.baseMipLevel == 0 && range.levelCount == size.mips && range.baseArrayLayer == 0 && range.layerCount == size.layers;
-  return all && request.dimension == resource.dimension && info.format == static_cast<VkFormat>(resource.format) && range.aspectMask == resource.aspects;
+  return all && request.dimension == resource.dimension && info.format == static_cast<VkFormat>(resource.format) &&
+         range.aspectMask == resource.aspects;
 }
 
 ViewRef add_imported(const Context& context, Sized& sized, const ViewRequest& request, const VkImageViewCreateInfo& info) {

@@ -13,7 +13,7 @@ struct ViewRequest {
   bool arrayed = false;
   Format format = Format::undefined;  // undefined: the image's own
   VkImageUsageFlags usage = 0;
-  bool all_aspects = false;           // attachments of a depth and stencil image share one view
+  bool all_aspects = false;  // attachments of a depth and stencil image share one view
 };
 
 // Creates one view for each physical copy, or a slot for views of an import. `exists` is false where the range has vanished.

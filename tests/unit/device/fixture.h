@@ -48,7 +48,8 @@ class DeviceTest : public testing::Test {
   std::string reason;
 };
 
-template <class T> std::vector<T> as(std::span<const std::byte> bytes) {
+template <class T>
+std::vector<T> as(std::span<const std::byte> bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
   std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;
@@ -56,14 +57,14 @@ template <class T> std::vector<T> as(std::span<const std::byte> bytes) {
 
 }  // namespace rg::test
 
-#define RG_OPEN_DEVICE(name, validate)                       \
-  std::optional<rg::Device> name##_opened = open(validate);  \
-  if (HasFailure()) return;                                  \
-  if (!name##_opened) GTEST_SKIP() << reason;                \
+#define RG_OPEN_DEVICE(name, validate)                      \
+  std::optional<rg::Device> name##_opened = open(validate); \
+  if (HasFailure()) return;                                 \
+  if (!name##_opened) GTEST_SKIP() << reason;               \
   rg::Device& name = *name##_opened
 
-#define RG_ASSERT_OK(...)                                     \
-  do {                                                        \
-    const auto rg_result = (__VA_ARGS__);                     \
-    ASSERT_TRUE(rg_result) << rg_result.error().message;      \
+#define RG_ASSERT_OK(...)                                \
+  do {                                                   \
+    const auto rg_result = (__VA_ARGS__);                \
+    ASSERT_TRUE(rg_result) << rg_result.error().message; \
   } while (false)

@@ -113,8 +113,8 @@ TEST_F(Hazards, AttachmentOverwrittenWhileItIsSampled) {
 
 TEST_F(Hazards, MemoryTakenOverFromAnUnfinishedUser) {
   test::Aliased t = test::aliased();
-  t.plan.releases[0].stages = stage::none;                  // a says that nothing has to finish
-  t.plan.image_barriers[2].src_stages = stage::none;        // b discards without waiting
+  t.plan.releases[0].stages = stage::none;            // a says that nothing has to finish
+  t.plan.image_barriers[2].src_stages = stage::none;  // b discards without waiting
   run(t.plan);
   expect("Hazard WRITE_AFTER_READ");
 }

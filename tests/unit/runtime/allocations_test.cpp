@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <new>
 
-#include "tests/unit/runtime/plans.h"
 #include "tests/unit/runtime/null_fixture.h"
+#include "tests/unit/runtime/plans.h"
 
 namespace {
 std::atomic<bool> counting = false;

@@ -1,6 +1,6 @@
 // Every Vulkan call that can fail does, one at a time: an error comes back, nothing leaks, and what existed goes on.
-#include "tests/unit/runtime/plans.h"
 #include "tests/unit/runtime/null_fixture.h"
+#include "tests/unit/runtime/plans.h"
 
 namespace rg {
 namespace {
@@ -50,7 +50,8 @@ bool may_go_unnoticed(const std::string& log) {
   const std::string call = failed_call(log);
   if (call.empty() || call.starts_with("vkSetDebugUtilsObjectNameEXT")) return true;
   const std::string afterwards = log.substr(log.find(call));
-  return call.starts_with("vkWaitSemaphores") && test::calls(afterwards, "vkQueueSubmit2").empty() && !test::calls(afterwards, "vkDestroySemaphore").empty();
+  return call.starts_with("vkWaitSemaphores") && test::calls(afterwards, "vkQueueSubmit2").empty() &&
+         !test::calls(afterwards, "vkDestroySemaphore").empty();
 }
 
 void fail_every_call(const Plan& plan, Index result) {

@@ -10,7 +10,8 @@ TEST_F(FrameText, EstablishesNothingForTransientsThatAreDiscarded) {
   test::ClearAndCopy t = test::clear_and_copy();
   ASSERT_TRUE(GraphInstance::create(device, t.plan.view(), {}));
   EXPECT_TRUE(test::calls(log, "vkCmdPipelineBarrier2").empty());
-  EXPECT_EQ(test::calls(log, "vkCreateImage ").at(0), "vkCreateImage type 1 format 37 8x4x1 mips 1 layers 1 samples 1 usage 0x3 flags 0x400 -> image1");
+  EXPECT_EQ(test::calls(log, "vkCreateImage ").at(0),
+            "vkCreateImage type 1 format 37 8x4x1 mips 1 layers 1 samples 1 usage 0x3 flags 0x400 -> image1");
 }
 
 TEST_F(FrameText, WalksStepsInOrderAndSignalsTheTimeline) {

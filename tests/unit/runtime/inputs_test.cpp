@@ -150,7 +150,10 @@ test::Tint tint_of_import() {
   return t;
 }
 
-template <class Handle> Handle handle(uintptr_t value) { return reinterpret_cast<Handle>(value); }
+template <class Handle>
+Handle handle(uintptr_t value) {
+  return reinterpret_cast<Handle>(value);
+}
 
 TEST_F(Inputs, ImportsAreNeeded) {
   test::Tint t = tint_of_import();
@@ -212,7 +215,8 @@ TEST_F(Inputs, ViewsOfImportsAreMadeOnceAnImage) {
 TEST_F(Inputs, BuffersAreImportedWithTheirOffset) {
   test::TestPlan p;
   Resource lights;
-  lights.name = "lights", lights.kind = ResourceKind::buffer, lights.lifetime = Lifetime::imported, lights.import_slot = 0, lights.usage = test::kCopyDst;
+  lights.name = "lights", lights.kind = ResourceKind::buffer, lights.lifetime = Lifetime::imported, lights.import_slot = 0,
+  lights.usage = test::kCopyDst;
   const Index index = test::TestPlan::add(p.resources, lights);
   p.barriers({}, {test::buffer_barrier({index, 0}, stage::copy, access::none, stage::clear, access::transfer_write)});
   Transfer fill;
@@ -231,11 +235,13 @@ TEST_F(Inputs, BuffersAreImportedWithTheirOffset) {
 
 TEST_F(Inputs, IndirectWorkReadsItsArgumentsAtTheirOffset) {
   test::TestPlan p;
-  const Index arguments = p.buffer("arguments", p.constant(256), test::kIndirectBuffer), counts = p.buffer("counts", p.constant(4), test::kIndirectBuffer);
+  const Index arguments = p.buffer("arguments", p.constant(256), test::kIndirectBuffer),
+              counts = p.buffer("counts", p.constant(4), test::kIndirectBuffer);
   Pass pass;
   pass.name = "indirect", pass.kind = PassKind::raster;
   pass.work.arguments = {arguments, 0}, pass.work.arguments_offset = p.constant(32), pass.work.counts = {counts, 0}, pass.work.max_draws = 4;
-  for (const WorkKind kind : {WorkKind::draw_indirect, WorkKind::draw_indexed_indirect, WorkKind::draw_indirect_count, WorkKind::draw_indexed_indirect_count}) {
+  for (const WorkKind kind :
+       {WorkKind::draw_indirect, WorkKind::draw_indexed_indirect, WorkKind::draw_indirect_count, WorkKind::draw_indexed_indirect_count}) {
     pass.work.kind = kind, pass.work.stride = kind == WorkKind::draw_indirect || kind == WorkKind::draw_indirect_count ? 16 : 20;
     p.pass(pass);
   }

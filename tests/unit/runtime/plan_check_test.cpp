@@ -7,7 +7,8 @@
 namespace rg {
 namespace {
 
-template <class Break> std::string fault(Break&& break_plan) {
+template <class Break>
+std::string fault(Break&& break_plan) {
   test::Tint t = test::tint();
   break_plan(t.plan);
   const Status status = check_plan(t.plan.view());

@@ -56,14 +56,16 @@ inline Counter counter() {
   t.result = p.buffer("result", bytes, kCopyDst, Lifetime::readback);
   p.entry.push_back({{t.state, 0}, {}, stage::compute_shader | stage::copy, access::none, Layout::undefined, kNone, true});
   p.entry.push_back({{t.state, 1}, {}, stage::compute_shader, access::shader_storage_write});
-  p.barriers({}, {buffer_barrier({t.state, 1}, stage::compute_shader, access::shader_storage_write, stage::compute_shader, access::shader_storage_read),
-                  buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::none, stage::compute_shader, access::none)});
+  p.barriers({},
+             {buffer_barrier({t.state, 1}, stage::compute_shader, access::shader_storage_write, stage::compute_shader, access::shader_storage_read),
+              buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::none, stage::compute_shader, access::none)});
   t.step = add_shader_pass(p, "step", {t.state, 1}, {t.state, 0}, one);
   p.barriers({}, {buffer_barrier({t.state, 0}, stage::compute_shader, access::shader_storage_write, stage::copy, access::transfer_read)});
   Transfer copy;
   copy.kind = TransferKind::copy_buffer, copy.src = {t.state, 0}, copy.dst = {t.result, 0};
-  p.transfer("copy", {copy}, {touches({t.state, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
-                              touches({t.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  p.transfer("copy", {copy},
+             {touches({t.state, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
+              touches({t.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
   p.barriers({}, {to_host(t.result)});
   return t;
 }
@@ -99,13 +101,15 @@ inline Tint tint() {
   draw.name = "draw", draw.module = "scene", draw.kind = PassKind::raster, draw.work.kind = WorkKind::host, draw.host_slot = 0;
   draw.rendering = one_color_rendering(p, t.scene, width, height, LoadOp::clear, {{0, 0x3f800000, 0x3f800000, 0x3f800000}});  // 0, 1, 1, 1
   t.draw = p.pass(draw, {touches({t.scene, 0}, output, written, Layout::color_attachment, true)});
-  p.barriers({transition(t.scene, output, written, Layout::color_attachment, stage::fragment_shader, access::shader_sampled_read, Layout::shader_read_only),
-              discard(t.final, output, written, Layout::color_attachment, stage::copy)});
+  p.barriers(
+      {transition(t.scene, output, written, Layout::color_attachment, stage::fragment_shader, access::shader_sampled_read, Layout::shader_read_only),
+       discard(t.final, output, written, Layout::color_attachment, stage::copy)});
   Pass tint;
   tint.name = "tint", tint.module = "post", tint.kind = PassKind::raster, tint.work.kind = WorkKind::draw, tint.work.x = p.constant(3);
   tint.rendering = one_color_rendering(p, t.final, width, height, LoadOp::dont_care, {});
   Binding source;
-  source.type = DescriptorType::combined_image_sampler, source.stages = kFragmentBit, source.ref = {t.scene, 0}, source.layout = Layout::shader_read_only;
+  source.type = DescriptorType::combined_image_sampler, source.stages = kFragmentBit, source.ref = {t.scene, 0},
+  source.layout = Layout::shader_read_only;
   source.range.aspects = aspect_color, source.sampler = TestPlan::add(p.samplers, Sampler{"nearest"});
   tint.first_binding = TestPlan::add(p.bindings, source), tint.binding_count = 1;
   const Index vertex = TestPlan::add(p.shaders, ShaderModule{"triangle.vert", ShaderStage::vertex, kTriangleShader});
@@ -120,8 +124,9 @@ inline Tint tint() {
   p.barriers({transition(t.final, output, written, Layout::color_attachment, stage::copy, access::transfer_read, Layout::transfer_src)});
   Transfer copy;
   copy.kind = TransferKind::copy_image_to_buffer, copy.src = {t.final, 0}, copy.dst = {t.result, 0};
-  p.transfer("copy", {copy}, {touches({t.final, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
-                              touches({t.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  p.transfer("copy", {copy},
+             {touches({t.final, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
+              touches({t.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
   p.barriers({}, {to_host(t.result)});
   return t;
 }
@@ -147,7 +152,8 @@ inline Mips mips() {
     static constexpr std::string_view kNames[] = {"clear[0]", "clear[1]", "clear[2]", "clear[3]"};
     Range range;
     range.mip = mip, range.mips = 1;
-    const Index pass = p.transfer(kNames[mip], {clear}, {touches({t.image, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true, range)});
+    const Index pass =
+        p.transfer(kNames[mip], {clear}, {touches({t.image, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true, range)});
     p.passes[pass].first_mip_limit = TestPlan::add(p.mip_limits, MipLimit{t.image, mip});
     p.passes[pass].mip_limit_count = 1;
   }
@@ -177,9 +183,11 @@ inline Aliased aliased() {
     p.acquires.push_back({image, group, barrier, 1, stage::clear, access::transfer_write});
     p.releases.push_back({image, stage::copy, access::none});
     p.transfer("clear", {clear}, {touches({image, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
-    p.barriers({transition(image, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
-    p.transfer("copy", {copy}, {touches({image, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
-                                touches({result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+    p.barriers(
+        {transition(image, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
+    p.transfer("copy", {copy},
+               {touches({image, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
+                touches({result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
   };
   clear_and_read(t.a, t.result_a, 0x3f800000);
   clear_and_read(t.b, t.result_b, 0x40000000);

@@ -44,7 +44,8 @@ struct TestPlan {
   std::vector<MipLimit> mip_limits;
   std::vector<std::string_view> conditions;
 
-  template <class Row> static Index add(std::vector<Row>& table, Row row) {
+  template <class Row>
+  static Index add(std::vector<Row>& table, Row row) {
     table.push_back(std::move(row));
     return static_cast<Index>(table.size() - 1);
   }
@@ -56,7 +57,8 @@ struct TestPlan {
   // A 2D image of `width` x `height` expressions.
   Index image(std::string_view name, Format format, Index width, Index height, uint32_t usage, uint32_t aspects = aspect_color) {
     Resource resource;
-    resource.name = name, resource.format = format, resource.width = width, resource.height = height, resource.usage = usage, resource.aspects = aspects;
+    resource.name = name, resource.format = format, resource.width = width, resource.height = height, resource.usage = usage,
+    resource.aspects = aspects;
     return add(resources, resource);
   }
   Index buffer(std::string_view name, Index bytes, uint32_t usage, Lifetime lifetime = Lifetime::transient) {
@@ -100,8 +102,10 @@ struct TestPlan {
     if (plan.name.empty()) plan.name = "test";
     plan.exprs = exprs, plan.extents = extents, plan.resources = resources, plan.queues = queues, plan.batches = batches, plan.steps = steps;
     plan.groups = groups, plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
-    plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs, plan.passes = passes, plan.accesses = accesses;
-    plan.renderings = renderings, plan.attachments = attachments, plan.shaders = shaders, plan.pipelines = pipelines, plan.pipeline_shaders = pipeline_shaders;
+    plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs, plan.passes = passes,
+    plan.accesses = accesses;
+    plan.renderings = renderings, plan.attachments = attachments, plan.shaders = shaders, plan.pipelines = pipelines,
+    plan.pipeline_shaders = pipeline_shaders;
     plan.bindings = bindings, plan.samplers = samplers, plan.params = params, plan.pass_params = pass_params, plan.transfers = transfers;
     plan.mip_limits = mip_limits, plan.conditions = conditions;
     return plan;
@@ -121,7 +125,8 @@ inline ImageBarrier transition(Index image, Stages src, Accesses src_accesses, L
 }
 inline BufferBarrier buffer_barrier(Ref buffer, Stages src, Accesses src_accesses, Stages dst, Accesses dst_accesses) {
   BufferBarrier barrier;
-  barrier.buffer = buffer, barrier.src_stages = src, barrier.src_accesses = src_accesses, barrier.dst_stages = dst, barrier.dst_accesses = dst_accesses;
+  barrier.buffer = buffer, barrier.src_stages = src, barrier.src_accesses = src_accesses, barrier.dst_stages = dst,
+  barrier.dst_accesses = dst_accesses;
   return barrier;
 }
 inline BufferBarrier to_host(Index buffer, Stages src = stage::copy, Accesses src_accesses = access::transfer_write) {
@@ -153,7 +158,8 @@ inline ClearAndCopy clear_and_copy() {
   clear.kind = TransferKind::clear_color, clear.dst = {t.color, 0};
   clear.value = {{0x3f800000, 0, 0x3f800000, 0x3f800000}};  // 1, 0, 1, 1
   t.clear = p.transfer("clear", {clear}, {touches({t.color, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
-  p.barriers({transition(t.color, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
+  p.barriers(
+      {transition(t.color, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
   Transfer copy;
   copy.kind = TransferKind::copy_image_to_buffer, copy.src = {t.color, 0}, copy.dst = {t.result, 0};
   t.copy = p.transfer("copy", {copy},
