@@ -117,7 +117,7 @@ Status measure_frame(Renderer& renderer, const Scene& scene, const DemoOptions& 
 }
 
 Status render_all(Device& device, const Scene& scene, const DemoOptions& options) {
-  const auto shots = choose_shots(scene, options);
+  auto shots = choose_shots(scene, options);
   if (!shots) return shots.error();
   auto renderer = Renderer::create(device, scene, {.width = options.width, .height = options.height});
   if (!renderer) return renderer.error();

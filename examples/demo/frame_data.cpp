@@ -21,10 +21,10 @@ rg::mat3x4 to_rows(const glm::mat4& m) {
   return {{to_rg(t[0]), to_rg(t[1]), to_rg(t[2])}};
 }
 
-float wave(const Animation& a, float time) { return std::sin(kTau * (a.rate * time + a.phase)); }
+float swing(const Animation& a, float time) { return a.motion == Motion::swing ? a.amount * std::sin(kTau * (a.rate * time + a.phase)) : 0.0f; }
 
 glm::mat4 moved(const glm::mat4& transform, const Animation& a, float time) {
-  if (a.motion == Motion::spin) return glm::rotate(transform, kTau * a.amount * time, glm::vec3(0, 1, 0));
+  if (a.motion == Motion::tumble) return glm::rotate(transform, kTau * a.amount * time, glm::vec3(1, 0, 0));
   return transform;
 }
 
@@ -81,7 +81,8 @@ PropPlacement place(const Prop& prop, float time) {
   to.draw.model = to_rows(moved(prop.transform, prop.animation, time));
   to.draw.previous = to_rows(moved(prop.transform, prop.animation, time - kFrameSeconds));
   to.draw.tint = to_rg(prop.tint);
-  to.draw.swing = prop.animation.motion == Motion::swing ? prop.animation.amount * wave(prop.animation, time) : 0.0f;
+  to.draw.swing = swing(prop.animation, time);
+  to.draw.swing_before = swing(prop.animation, time - kFrameSeconds);
   to.draw.sky = prop.sky;
   return to;
 }

@@ -91,6 +91,8 @@ void add_slab(MeshData& mesh, glm::vec3 low, glm::vec3 high, float bevel, float 
 void add_lathe(MeshData& mesh, glm::vec3 base, std::span<const glm::vec2> profile, int segments, float flutes) {
   const auto first = static_cast<uint32_t>(mesh.vertices.size());
   const int rows = static_cast<int>(profile.size());
+  // One radius for all rows: a texture that narrows is better than one that shears.
+  const float reach = std::max_element(profile.begin(), profile.end(), [](glm::vec2 a, glm::vec2 b) { return a.x < b.x; })->x;
   for (int j = 0; j < rows; ++j) {
     const glm::vec2 here = profile[static_cast<size_t>(j)];
     const glm::vec2 along = profile[static_cast<size_t>(std::min(j + 1, rows - 1))] - profile[static_cast<size_t>(std::max(j - 1, 0))];
@@ -101,7 +103,7 @@ void add_lathe(MeshData& mesh, glm::vec3 base, std::span<const glm::vec2> profil
       const glm::vec3 radial(std::cos(angle), 0, -std::sin(angle)), around(-std::sin(angle), 0, -std::cos(angle));
       const float lean = flutes > 0 ? 0.6f * std::cos(angle * flutes * 0.5f) * (std::sin(angle * flutes * 0.5f) < 0 ? -1.0f : 1.0f) : 0.0f;
       const glm::vec3 normal = glm::normalize(radial * out.x + glm::vec3(0, out.y, 0) - around * (lean * 0.5f));
-      add_vertex(mesh, base + radial * (here.x - wave) + glm::vec3(0, here.y, 0), normal, around, {turn * here.x * kTau, -here.y});
+      add_vertex(mesh, base + radial * (here.x - wave) + glm::vec3(0, here.y, 0), normal, around, {turn * reach * kTau, -here.y});
     }
   }
   add_cells(mesh, first, segments, rows - 1);

@@ -67,7 +67,7 @@ constexpr Row kMaterials[] = {
     {"verdigris", {1, 1, 1}, 1, 1, 0.7f, layer::verdigris, 1.1f, {}, 1},
     {"terracotta", {1, 1, 1}, 1, 0, 0.8f, layer::terracotta, 0.8f, {}, 1},
     {"painted wood", {0.80f, 0.78f, 0.72f}, 0.6f, 0, 0, layer::flat, 1, {}, 1},
-    {"warm glow", {1.0f, 0.62f, 0.28f}, 0.8f, 0, 0, layer::flat, 1, {3.2f, 3.2f, 3.2f}, 1},
+    {"warm glow", {1.0f, 0.62f, 0.28f}, 0.8f, 0, 0, layer::flat, 1, {1.7f, 1.7f, 1.7f}, 1},
     {"teal glow", {0.10f, 0.85f, 0.80f}, 0.8f, 0, 0, layer::flat, 1, {3.0f, 3.0f, 3.0f}, 1},
     {"rose glow", {1.0f, 0.22f, 0.42f}, 0.8f, 0, 0, layer::flat, 1, {3.0f, 3.0f, 3.0f}, 1},
     {"embers", {1.0f, 0.30f, 0.06f}, 0.9f, 0, 1, layer::leaves, 0.4f, {60, 60, 60}, 1},
@@ -79,13 +79,13 @@ static_assert(std::size(kMaterials) == paint_of::count);
 
 void set_cameras(Scene& scene) {
   scene.cameras = {
-      {"courtyard", {-10.6f, 1.75f, 7.4f}, {2.6f, 2.75f, -5.2f}, 1.02f, 0.0f},
-      {"interior", {5.3f, 2.5f, -20.6f}, {-1.6f, 2.35f, -13.0f}, 1.08f, 0.1f},
-      {"overview", {23.5f, 19.0f, 24.0f}, {-0.8f, 1.6f, -2.2f}, 0.74f, 0.2f},
+      {"courtyard", {-5.6f, 1.9f, 9.2f}, {1.5f, 3.1f, -8.0f}, 1.0f, -0.8f},
+      {"interior", {-2.7f, 2.55f, -15.4f}, {1.5f, 1.95f, -21.4f}, 1.08f, -0.35f},
+      {"overview", {-10.5f, 11.8f, 8.8f}, {1.9f, 0.6f, -4.2f}, 0.98f, -0.7f},
   };
   scene.sun.direction = glm::normalize(glm::vec3(-0.62f, 0.42f, 0.40f));
-  scene.sun.color = {1.15f, 0.58f, 0.30f};
-  scene.sun.ambient = {0.075f, 0.105f, 0.19f};
+  scene.sun.color = {1.0f, 0.46f, 0.20f};
+  scene.sun.ambient = {0.045f, 0.075f, 0.17f};
   scene.sun.center = {0, 3, -3};
   scene.sun.radius = 26;
 }

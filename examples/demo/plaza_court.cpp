@@ -72,6 +72,16 @@ void build_fountain(Workshop& shop) {
         turned({{0.2f, 1.4f}, {0.6f, 1.5f}, {1.05f, 1.68f}, {1.32f, 1.9f}, {1.38f, 2.0f}, {1.32f, 2.04f}, {1.2f, 1.98f}, {0.9f, 1.8f}, {0.3f, 1.72f}}, 48, kFountain));
   place(shop, "finial", paint_of::gold,
         turned({{0.2f, 1.72f}, {0.16f, 2.1f}, {0.26f, 2.22f}, {0.3f, 2.36f}, {0.2f, 2.5f}, {0.08f, 2.58f}, {0.07f, 2.72f}, {0.0f, 2.86f}}, 24, kFountain));
+  for (int i = 0; i < 3; ++i) {  // rings that turn about the hologram
+    MeshData ring;
+    const float r = 1.05f + 0.13f * static_cast<float>(i);
+    const vec2 profile[] = {{r, -0.03f}, {r + 0.03f, -0.02f}, {r + 0.03f, 0.02f}, {r, 0.03f}, {r - 0.02f, 0}, {r, -0.03f}};
+    add_lathe(ring, {0, 0, 0}, profile, 64);
+    const uint32_t at = place(shop, "ring " + std::to_string(i), i == 1 ? paint_of::verdigris : paint_of::gold, std::move(ring));
+    Instance& instance = shop.scene.instances[at];
+    instance.transform = glm::rotate(glm::translate(glm::mat4(1), vec3(0, 4.1f, 1)), 0.5f + 0.7f * static_cast<float>(i), vec3(0.3f, 0.1f, 1));
+    instance.animation = {Motion::tumble, i == 1 ? -0.22f : 0.17f, 0, 0};
+  }
   add_water(shop, "basin water", 2.92f, 0.6f);
   add_water(shop, "bowl water", 1.24f, 1.96f);
 }

@@ -40,8 +40,7 @@ void light_fountain(Workshop& shop) {
   for (int i = 0; i < 10; ++i) {
     const float angle = 0.6283185f * static_cast<float>(i);
     const vec3 out(std::cos(angle), 0, std::sin(angle));
-    spot(shop, vec3(0, 0.5f, 1) + out * 2.5f, vec3(0, 1, 0) - out * 0.75f, (i % 2 == 0 ? kTeal : kViolet) * 2.2f, 4.5f, 0.3f, 0.7f);
-    omni(shop, vec3(0, 0.42f, 1) + out * 2.3f, (i % 2 == 0 ? kTeal : kViolet) * 0.35f, 1.6f);
+    spot(shop, vec3(0, 0.5f, 1) + out * 2.5f, vec3(0, 1, 0) - out * 0.75f, (i % 2 == 0 ? kTeal : kViolet) * 1.4f, 4.5f, 0.3f, 0.7f);
   }
   omni(shop, {0, 4.1f, 1}, kTeal * 0.9f, 5);
 }
@@ -58,7 +57,7 @@ void light_walks(Workshop& shop) {
 
 void light_hall(Workshop& shop) {
   uint32_t seed = 300;
-  for (const vec3& at : candle_places()) omni(shop, at + vec3(0, 0.05f, 0), kCandle * 0.55f, 4.2f, {Motion::drift, 0.012f, 2.3f, random_unit(seed++)});
+  for (const vec3& at : candle_places()) omni(shop, at + vec3(0, 0.05f, 0), kCandle * 0.6f, 5.5f, {Motion::drift, 0.012f, 2.3f, random_unit(seed++)});
   omni(shop, {0, plan::terrace + 0.45f, plan::hall_back + 0.75f}, vec3(1.0f, 0.36f, 0.08f) * 3.4f, 6.5f, {Motion::drift, 0.05f, 1.7f, 0});
   omni(shop, {-0.4f, plan::terrace + 0.35f, plan::hall_back + 0.7f}, vec3(1.0f, 0.30f, 0.05f) * 1.2f, 3.5f, {Motion::drift, 0.04f, 2.9f, 0.4f});
   for (const float side : {-1.0f, 1.0f})
@@ -108,7 +107,7 @@ std::vector<vec3> lantern_post_places() {
 
 void hang_lights(Workshop& shop) {
   for (const std::vector<Bulb>& bulbs : strings_of_bulbs())
-    for (const Bulb& bulb : bulbs) omni(shop, bulb.position, bulb.color * 0.42f, 3.4f);
+    for (const Bulb& bulb : bulbs) omni(shop, bulb.position, bulb.color * 0.42f, 3.0f);
   light_columns(shop);
   light_fountain(shop);
   light_walks(shop);

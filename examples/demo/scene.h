@@ -31,10 +31,10 @@ struct Material {
 };
 
 // How something moves with time; everything is a function of time alone.
-enum class Motion : uint8_t { still, spin, swing, drift };
+enum class Motion : uint8_t { still, tumble, swing, drift };
 struct Animation {
   Motion motion = Motion::still;
-  float amount = 0;  // spin: turns a second about y; swing: radians; drift: metres
+  float amount = 0;  // tumble: turns a second about x; swing: radians; drift: metres
   float rate = 0;    // cycles a second
   float phase = 0;   // cycles
 };

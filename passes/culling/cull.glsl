@@ -1,4 +1,6 @@
 // Sphere and cone of a light against the part of the frustum that a tile sees.
+#include "cone.glsl"
+
 struct TileVolume {  // view space
   vec4 slopes;       // x/z at the left and right side, y/z at the top and bottom
   vec4 lengths;      // of the sides' normals (1, slope), inverted
@@ -30,14 +32,6 @@ bool sphere_reaches(TileVolume t, vec3 c, float r) {
   if (c.z - r > t.far || c.z + r < t.near) return false;
   vec4 outside = vec4(t.slopes.x * c.z - c.x, c.x - t.slopes.y * c.z, t.slopes.z * c.z - c.y, c.y - t.slopes.w * c.z) * t.lengths;
   return max(max(outside.x, outside.y), max(outside.z, outside.w)) <= r;
-}
-
-// Wronski 2017: the sphere is beyond the cone's side, its end or its tip. Never rejects a pair that intersects while the angle is below 90 degrees.
-bool cone_reaches(vec3 origin, vec3 axis, float range, float cos_angle, float sin_angle, vec3 center, float radius) {
-  vec3 v = center - origin;
-  float along = dot(v, axis);
-  float beside = cos_angle * sqrt(max(dot(v, v) - along * along, 0.0)) - along * sin_angle;
-  return !(beside > radius || along > radius + range || along < -radius);
 }
 
 const float CULL_MARGIN = 1.0005;  // rounding; metres for metres

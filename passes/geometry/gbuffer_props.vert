@@ -16,5 +16,5 @@ void main() {
   out_color = vec4(unpackUnorm4x8(color).rgb * per_draw.tint, per_draw.sky);
   out_surface = unpackUnorm4x8(surface).rgb;
   out_now = camera.steady_to_clip * vec4(world, 1.0);
-  out_before = camera.previous_to_clip * vec4(place_prop(per_draw.previous, swing_point(position, part, per_draw.swing)), 1.0);
+  out_before = camera.previous_to_clip * vec4(place_prop(per_draw.previous, swing_point(position, part, per_draw.swing_before)), 1.0);
 }
