@@ -129,6 +129,22 @@ CppWriter& CppWriter::line(std::string_view text) {
   return *this;
 }
 
+CppWriter& CppWriter::call(const std::string& before, const std::vector<std::string>& items, const std::string& after) {
+  const std::string margin(before.size() + 1, ' ');
+  std::string current = before + "(";
+  for (size_t i = 0; i < items.size(); ++i) {
+    const bool last = i + 1 == items.size();
+    const std::string piece = items[i] + (last ? ")" + after : ",");
+    const bool fresh = current.back() == '(' || current == margin;
+    if (!fresh && current.size() + 1 + piece.size() > kColumns) {
+      line(current);
+      current = margin;
+    }
+    current += (current.back() == '(' || current == margin ? "" : " ") + piece;
+  }
+  return line(items.empty() ? current + ")" + after : current);
+}
+
 void CppWriter::table(const std::string& type, const std::string& name, const std::vector<Row>& rows) {
   if (rows.empty()) return;
   line("constexpr " + type + " " + name + "[] = {");

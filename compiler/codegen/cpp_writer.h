@@ -39,6 +39,8 @@ class Row {
 class CppWriter {
  public:
   CppWriter& line(std::string_view text = "");
+  // `BEFORE(ITEMS)AFTER`, broken between items where it is too wide.
+  CppWriter& call(const std::string& before, const std::vector<std::string>& items, const std::string& after);
   // `constexpr TYPE NAME[] = { rows };` Nothing at all for an empty table. A comment per row may come before it.
   void table(const std::string& type, const std::string& name, const std::vector<Row>& rows);
   const std::string& text() const { return text_; }

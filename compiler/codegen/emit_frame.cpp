@@ -88,32 +88,34 @@ std::vector<Argument> arguments(const FrameApi& api) {
   return list;
 }
 
-std::string parameter_list(const FrameApi& api, const std::string& last) {
-  std::string text;
-  for (const Argument& argument : arguments(api)) text += (text.empty() ? "const " : ", const ") + argument.type + "& " + argument.name;
-  if (!last.empty()) text += (text.empty() ? "" : ", ") + last;
-  return text;
+std::vector<std::string> parameters(const FrameApi& api, std::initializer_list<const char*> last) {
+  std::vector<std::string> list;
+  for (const Argument& argument : arguments(api)) list.push_back("const " + argument.type + "& " + argument.name);
+  list.insert(list.end(), last.begin(), last.end());
+  return list;
 }
 
-std::string argument_list(const FrameApi& api, const std::string& last) {
-  std::string text;
-  for (const Argument& argument : arguments(api)) text += (text.empty() ? "" : ", ") + argument.name;
-  if (!last.empty()) text += (text.empty() ? "" : ", ") + last;
-  return text;
+std::vector<std::string> argument_names(const FrameApi& api, std::initializer_list<const char*> last) {
+  std::vector<std::string> list;
+  for (const Argument& argument : arguments(api)) list.push_back(argument.name);
+  list.insert(list.end(), last.begin(), last.end());
+  return list;
 }
 
 void execute(CppWriter& out, const FrameApi& api) {
   out.line("  // Records and submits one frame. Allocates nothing.");
   if (api.passes.empty()) {
-    out.line("  rg::Status execute(" + parameter_list(api, "") + ") { return submit(" + argument_list(api, "nullptr, nullptr") + "); }");
+    out.call("  rg::Status execute", parameters(api, {}), " {");
+    out.call("    return submit", argument_names(api, {"nullptr", "nullptr"}), ";");
+    out.line("  }");
     return;
   }
   out.line("  template <" + api.class_name + "Recorder R>");
-  out.line("  rg::Status execute(" + parameter_list(api, "R& recorder") + ") {");
+  out.call("  rg::Status execute", parameters(api, {"R& recorder"}), " {");
   out.line("    static constexpr rg::RecordFunction callbacks[] = {");
   for (const ApiPass& pass : api.passes) out.line("        record<R, " + pass.type + ", [](R& r, " + pass.type + "& pass) { r." + pass.method + "(pass); }>,");
   out.line("    };");
-  out.line("    return submit(" + argument_list(api, "callbacks, &recorder") + ");");
+  out.call("    return submit", argument_names(api, {"callbacks", "&recorder"}), ";");
   out.line("  }");
 }
 
@@ -144,7 +146,7 @@ void frame_class(CppWriter& out, const FrameApi& api) {
   out.line();
   out.line(" private:");
   if (!api.passes.empty()) record_function(out);
-  out.line("  rg::Status submit(" + parameter_list(api, "const rg::RecordFunction* callbacks, void* recorder") + ");");
+  out.call("  rg::Status submit", parameters(api, {"const rg::RecordFunction* callbacks", "void* recorder"}), ";");
   out.line("  explicit " + name + "(rg::GraphInstance instance) : instance_(std::move(instance)) {}");
   out.line("  rg::GraphInstance instance_;");
   out.line("};");
@@ -195,7 +197,7 @@ void rows(CppWriter& out, const std::string& type, const char* from, const char*
 }
 
 void submit(CppWriter& out, const FrameApi& api) {
-  out.line("rg::Status " + api.class_name + "::submit(" + parameter_list(api, "const rg::RecordFunction* callbacks, void* recorder") + ") {");
+  out.call("rg::Status " + api.class_name + "::submit", parameters(api, {"const rg::RecordFunction* callbacks", "void* recorder"}), " {");
   out.line("  rg::FrameInputs inputs;");
   out.line("  inputs.callbacks = callbacks;");
   out.line("  inputs.user = recorder;");

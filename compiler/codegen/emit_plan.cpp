@@ -47,7 +47,7 @@ class Emitter {
  private:
   std::string resource(Index i) const { return i == kNone ? "kNone" : "resource::" + text_.names.resources[i]; }
   std::string pass(Index i) const { return i == kNone ? "kNone" : "pass::" + text_.names.passes[i]; }
-  std::string where(std::string_view file, uint32_t line) const { return origin(text_.files, file, line); }
+  Row& declared(Row& row, dsl::Span span) const;
 
   Row ref(const Ref& ref) const;
   Row range(const Range& range) const;
@@ -122,6 +122,19 @@ Row clear_value(const ClearValue& value) {
   return row.field("word", words + "}");
 }
 
+Row& Emitter::declared(Row& row, dsl::Span span) const {
+  const std::string place = origin(text_.files, span);
+  const size_t colon = place.rfind(':');
+  return place.empty() ? row : row.field("line", place.substr(colon + 1)).string("file", place.substr(0, colon));
+}
+
+// The pass that owns row `at` of a table that passes slice.
+std::string owner(const Plan& plan, size_t at, Index Pass::*first, uint32_t Pass::*count) {
+  for (const Pass& pass : plan.passes)
+    if (at >= pass.*first && at < pass.*first + pass.*count) return std::string(pass.name);
+  return "";
+}
+
 // ---- who a barrier is between
 
 size_t Emitter::step_of_group(Index group) const {
@@ -155,9 +168,8 @@ std::string Emitter::flow(const Ref& ref, size_t step) const {
 std::string Emitter::group_comment(Index group) const {
   for (size_t i = step_of_group(group); i < plan_.steps.size(); ++i)
     if (plan_.steps[i].kind == StepKind::pass) {
-      const Pass& next = plan_.passes[plan_.steps[i].index];
-      const std::string place = where(next.file, next.line);
-      return "before " + std::string(next.name) + (place.empty() ? "" : "  " + place);
+      const std::string place = origin(text_.files, text_.passes[plan_.steps[i].index]);
+      return "before " + std::string(plan_.passes[plan_.steps[i].index].name) + (place.empty() ? "" : "  " + place);
     }
   return "at the end of the frame";
 }
@@ -181,7 +193,7 @@ void Emitter::values() {
 }
 
 void Emitter::resources() {
-  table("Resource", "kResources", plan_.resources, [&](const Resource& r, size_t) {
+  table("Resource", "kResources", plan_.resources, [&](const Resource& r, size_t i) {
     Row row;
     row.string("name", r.name);
     const auto &kind = r.kind; const auto &lifetime = r.lifetime; const auto &dimension = r.dimension; const auto &init = r.init;
@@ -201,7 +213,7 @@ void Emitter::resources() {
     row.nested("init_value", clear_value(r.init_value)).flag("is_surface", r.is_surface).flag("no_alias", r.no_alias);
     index(row, "import_slot", r.import_slot);
     row.number("estimated_bytes", r.estimated_bytes).number("estimated_alignment", r.estimated_alignment, 1).number("estimated_offset", r.estimated_offset);
-    return row.number("line", r.line).string("file", r.file.empty() ? "" : shown_path(text_.files, r.file));
+    return declared(row, text_.resources[i]);
   });
 }
 
@@ -312,15 +324,15 @@ Row work_row(const Work& work, const Row& arguments, const Row& counts) {
 }
 
 void Emitter::passes() {
-  table("Access", "kAccesses", plan_.accesses, [&](const Access& a, size_t) {
+  table("Access", "kAccesses", plan_.accesses, [&](const Access& a, size_t i) {
     Row row;
     row.nested("ref", ref(a.ref)).nested("range", range(a.range)).nested("bytes", bytes(a.bytes));
     if (a.stages != 0) row.field("stages", stages_text(a.stages));
     if (a.accesses != 0) row.field("accesses", accesses_text(a.accesses));
     if (a.layout != Layout::undefined) row.field("layout", layout_text(a.layout));
-    return row.flag("writes", a.writes);
+    return row.flag("writes", a.writes).comment(owner(plan_, i, &Pass::first_access, &Pass::access_count));
   });
-  table("Pass", "kPasses", plan_.passes, [&](const Pass& p, size_t) {
+  table("Pass", "kPasses", plan_.passes, [&](const Pass& p, size_t i) {
     Row row;
     row.string("name", p.name).string("module", p.module);
     row.field("kind", enum_text("PassKind", static_cast<size_t>(p.kind), {"raster", "compute", "transfer", "host"}));
@@ -335,7 +347,7 @@ void Emitter::passes() {
     row.nested("work", work_row(p.work, ref(p.work.arguments), ref(p.work.counts)));
     index(row, "host_slot", p.host_slot);
     slice(row, "first_mip_limit", p.first_mip_limit, "mip_limit_count", p.mip_limit_count);
-    return row.number("line", p.line).string("file", p.file.empty() ? "" : shown_path(text_.files, p.file));
+    return declared(row, text_.passes[i]);
   });
   table("MipLimit", "kMipLimits", plan_.mip_limits,
         [&](const MipLimit& m, size_t) { return Row().field("image", resource(m.image)).number("mip", m.mip); });
@@ -430,7 +442,7 @@ std::string descriptor_text(DescriptorType type) {
 }
 
 void Emitter::bindings() {
-  table("Binding", "kBindings", plan_.bindings, [&](const Binding& b, size_t) {
+  table("Binding", "kBindings", plan_.bindings, [&](const Binding& b, size_t i) {
     Row row;
     row.number("binding", b.binding).field("type", descriptor_text(b.type)).number("stages", b.stages);
     row.nested("ref", ref(b.ref)).nested("range", range(b.range)).nested("bytes", bytes(b.bytes));
@@ -439,7 +451,7 @@ void Emitter::bindings() {
     if (b.view_format != Format::undefined) row.field("view_format", "Format{" + std::to_string(static_cast<uint32_t>(b.view_format)) + "}");
     if (b.layout != Layout::undefined) row.field("layout", layout_text(b.layout));
     index(row, "sampler", b.sampler);
-    return index(row, "params", b.params);
+    return index(row, "params", b.params).comment(owner(plan_, i, &Pass::first_binding, &Pass::binding_count));
   });
   table("Sampler", "kSamplers", plan_.samplers, [](const Sampler& s, size_t) {
     Row row;

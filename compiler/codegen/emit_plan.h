@@ -12,7 +12,7 @@ namespace rg::compiler {
 struct PlanText {
   const dsl::SourceFiles& files;
   const PlanNames& names;
-  std::string scope;                        // namespace of the generated header, "frame"
+  std::vector<dsl::Span> passes, resources;  // where each row of the plan is declared
   std::vector<std::string> shader_symbols;  // of Plan::shaders, qualified
 };
 // Tables in the order of plan.h, then `constexpr rg::Plan kPlan`; to stand in an anonymous namespace with rg's names in sight.

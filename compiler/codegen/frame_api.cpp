@@ -28,14 +28,19 @@ struct Source {
   const dsl::SourceFiles& files;
   const std::vector<StructUse>& uses;
   std::string where(dsl::Span span) const { return origin(files, span); }
+  std::string where_pass(size_t plan_pass) const {
+    return plan.program_pass[plan_pass] == kNone ? "" : where(graph.passes.rows[plan.program_pass[plan_pass]].span);
+  }
 };
 
 std::vector<ApiMember> collect_imports(const Source& s) {
   std::vector<ApiMember> imports;
-  for (const Resource& resource : s.plan.resources) {
+  for (size_t r = 0; r < s.plan.resources.size(); ++r) {
+    const Resource& resource = s.plan.resources[r];
     if (resource.import_slot == kNone) continue;
     const char* type = resource.kind == ResourceKind::image ? "rg::ImportedImage" : "rg::ImportedBuffer";
-    put(imports, resource.import_slot, {std::string(resource.name), std::string("rg::Required<") + type + ">", origin(s.files, resource.file, resource.line)});
+    const std::string place = s.where(s.graph.resources.rows[s.plan.program_resource[r]].span);
+    put(imports, resource.import_slot, {std::string(resource.name), std::string("rg::Required<") + type + ">", place});
   }
   for (const ApiMember& import : imports) RG_CHECK(!import.name.empty(), "an import slot belongs to no resource");
   name_members(imports);
@@ -83,7 +88,7 @@ std::vector<ApiPass> collect_passes(const Source& s, const PlanNames& names) {
     ApiPass row;
     row.method = names.passes[p];
     row.type = cpp_type_name(names.passes[p]) + "Pass";
-    row.comment = origin(s.files, pass.file, pass.line);
+    row.comment = s.where_pass(p);
     row.raster = pass.kind == PassKind::raster;
     row.compute = pass.kind == PassKind::compute;
     row.push_stages = pass.push_stages;

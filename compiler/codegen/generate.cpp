@@ -116,14 +116,23 @@ std::vector<std::string> shader_symbols(const PlanData& plan, const ShaderFiles&
   return symbols;
 }
 
-std::string source_text(const dsl::Program& program, const FramePlan& frame, const FrameApi& api, const ShaderFiles& shaders, const dsl::SourceFiles& files,
+PlanText plan_text(const dsl::Program& program, dsl::GraphId graph_id, const FramePlan& frame, const FrameApi& api, const ShaderFiles& shaders,
+                   const dsl::SourceFiles& files) {
+  const dsl::Graph& graph = program.graphs[graph_id];
+  PlanText text{files, api.names, {}, {}, shader_symbols(frame.plan, shaders, cpp_name(program.module))};
+  for (const uint32_t pass : frame.plan.program_pass) text.passes.push_back(pass == kNone ? dsl::Span{} : graph.passes.rows[pass].span);
+  for (const uint32_t resource : frame.plan.program_resource) text.resources.push_back(graph.resources.rows[resource].span);
+  return text;
+}
+
+std::string source_text(const dsl::Program& program, dsl::GraphId graph, const FramePlan& frame, const FrameApi& api, const ShaderFiles& shaders, const dsl::SourceFiles& files,
                         const std::string& heading) {
   const std::string module = cpp_name(program.module);
   std::string text = heading + "#include \"" + module + ".h\"\n\n#include <array>\n#include <string_view>\n\n";
   for (const ShaderModule& shader : frame.plan.shaders) text += "#include \"" + shaders.at(shader.name).path + "\"\n";
   text += "\nnamespace {\n\nusing namespace rg;\n";
   text += "namespace pass = " + api.scope + "::pass;\nnamespace resource = " + api.scope + "::resource;\n\n";
-  text += emit_plan(frame.plan.view(), {files, api.names, api.scope, shader_symbols(frame.plan, shaders, module)});
+  text += emit_plan(frame.plan.view(), plan_text(program, graph, frame, api, shaders, files));
   text += "\n}  // namespace\n\nnamespace " + api.scope + " {\n\n" + emit_definitions(api) + "\n}  // namespace " + api.scope + "\n";
   return text;
 }
@@ -172,7 +181,7 @@ std::vector<GeneratedFile> generate(const dsl::Program& program, const std::vect
   for (size_t i = 0; i < graphs.size(); ++i) {
     sources.push_back(source_path(program, graphs[i].graph));
     const ShaderFiles used = shaders.add(program.graphs[graphs[i].graph].name, *graphs[i].plans);
-    generated.push_back({sources.back(), source_text(program, graphs[i].plans->front(), apis[i], used, files, heading)});
+    generated.push_back({sources.back(), source_text(program, graphs[i].graph, graphs[i].plans->front(), apis[i], used, files, heading)});
   }
   generated.push_back({"README.md", readme_text(root_name(files), command, module)});
   generated.push_back({"CMakeLists.txt", cmake_text(root_name(files), command, sources)});

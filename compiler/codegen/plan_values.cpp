@@ -99,15 +99,10 @@ std::string shown_path(const dsl::SourceFiles& files, std::string_view path) {
   return below.empty() || *below.begin() == ".." ? std::string(path) : below.generic_string();
 }
 
-std::string origin(const dsl::SourceFiles& files, std::string_view file, uint32_t line) {
-  if (file.empty()) return "";
-  return shown_path(files, file) + ":" + std::to_string(line);
-}
-
 std::string origin(const dsl::SourceFiles& files, dsl::Span span) {
   if (!span.file.valid() || span.file.value >= files.size()) return "";
   const dsl::SourceFile& source = files[span.file];
-  return origin(files, source.path, source.position(span.begin).line);
+  return shown_path(files, source.path) + ":" + std::to_string(source.position(span.begin).line);
 }
 
 }  // namespace rg::compiler

@@ -24,8 +24,7 @@ PlanNames plan_names(const Plan& plan);
 
 // A path as it shall stand in generated text: relative to the root file's folder.
 std::string shown_path(const dsl::SourceFiles& files, std::string_view path);
-// "passes.rg:12"
-std::string origin(const dsl::SourceFiles& files, std::string_view file, uint32_t line);
+// "passes.rg:12"; empty for a span of no file.
 std::string origin(const dsl::SourceFiles& files, dsl::Span span);
 
 }  // namespace rg::compiler
