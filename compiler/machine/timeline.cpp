@@ -104,11 +104,12 @@ struct Unroller {
   }
 
   // What the plan's load and store operations do beside the draws.
-  static bool drops(const dsl::Pass& pass, const dsl::Access& access, const Attachment& attachment) {
-    const bool reads = needs_contents(pass, access);
+  static bool drops_before(const dsl::Pass& pass, const dsl::Access& access, const Attachment& attachment) {
     const bool clears = access.clear && access.mode != dsl::Mode::read && !access.covers;
-    const bool lost_before = (reads && attachment.load != LoadOp::load) || (clears && attachment.load != LoadOp::clear);
-    return lost_before || (access.mode != dsl::Mode::read && attachment.store != StoreOp::store);
+    return (needs_contents(pass, access) && attachment.load != LoadOp::load) || (clears && attachment.load != LoadOp::clear);
+  }
+  static bool drops_after(const dsl::Access& access, const Attachment& attachment) {
+    return access.mode != dsl::Mode::read && attachment.store != StoreOp::store;
   }
   static bool rewrites(const dsl::Access& access, const Attachment& attachment) {
     return access.mode == dsl::Mode::read && (attachment.load == LoadOp::clear || attachment.load == LoadOp::dont_care || attachment.store != StoreOp::none);
@@ -136,7 +137,8 @@ struct Unroller {
       event.pass = index;
       event.layout = layout;
       event.shares = commutes(access);
-      event.lost = attachment && (drops(source, access, *attachment) || (rewritten && touch.writes && destroys(*attachment)));
+      event.lost = attachment && drops_before(source, access, *attachment);
+      if (attachment && touch.writes) event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
       event.expected = effects.empty() ? std::vector<Version>(cells.size()) : effects[number].before;
       event.result = effects.empty() ? std::vector<Version>(cells.size(), {version::poison, 0}) : effects[number].after;
       if (touch.partial) event.result.assign(cells.size(), {version::partial, 0});
