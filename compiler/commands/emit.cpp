@@ -2,11 +2,14 @@
 
 #include <memory>
 
+#include "compiler/codegen/plan_values.h"
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 #include "compiler/commands/plan_json.h"
 #include "compiler/commands/plan_text.h"
 #include "dsl/lexer.h"
+#include "dsl/parser.h"
+#include "dsl/print.h"
 
 namespace rg::commands {
 namespace {
@@ -16,8 +19,8 @@ struct EmitOptions {
   compiler::CompileOptions compile;
 };
 
-// One token a line: place, kind, text.
-int emit_tokens(const std::string& path) {
+// Tokens or tree of the root file alone: what there is before names mean anything.
+int emit_syntax(const std::string& path, bool tree) {
   dsl::Diagnostics diagnostics;
   dsl::SourceFiles sources;
   std::string why;
@@ -28,30 +31,9 @@ int emit_tokens(const std::string& path) {
   }
   const dsl::FileId file = sources.add(dsl::SourceFile(path, *text));
   const std::string& source = sources[file].text;
-  for (const dsl::Token& token : dsl::lex(file, source, diagnostics)) {
-    const dsl::Position at = sources[file].position(token.begin);
-    print(fmt::format("{:>5}:{:<4} {:<16} {}\n", at.line, at.column, dsl::name(token.kind), dsl::text_of(token, source)));
-  }
+  const dsl::Tokens tokens = dsl::lex(file, source, diagnostics);
+  print(tree ? dsl::print_tree(dsl::parse(file, source, tokens, diagnostics)) : dsl::print_tokens(source, tokens));
   return finish(diagnostics, sources);
-}
-
-std::string struct_text(const dsl::Struct& record) {
-  std::string text = fmt::format("struct {}  // std140 {}, std430 {} bytes\n", record.name, record.size140, record.size430);
-  for (const dsl::Field& field : record.fields) text += fmt::format("  {:>4} {:>4}  {}\n", field.offset140, field.offset430, field.name);
-  return text;
-}
-
-std::string program_text(const dsl::Program& program) {
-  std::string text = fmt::format("module {}\n", program.module);
-  for (const auto& constant : program.constants) text += fmt::format("const {} = {}\n", constant.name, constant.value);
-  for (const dsl::Extent& extent : program.extents)
-    text += fmt::format("extent {} = {}x{}x{} max {}x{}x{}\n", extent.name, extent.initial[0], extent.initial[1], extent.initial[2], extent.maximum[0],
-                        extent.maximum[1], extent.maximum[2]);
-  for (const dsl::Feature& feature : program.features) text += fmt::format("feature {}: {}\n", feature.name, fmt::join(feature.values, " "));
-  for (const dsl::Condition& condition : program.conditions) text += fmt::format("condition {}\n", condition.name);
-  for (const dsl::Struct& record : program.structs) text += struct_text(record);
-  for (const dsl::Graph& graph : program.graphs) text += graph_text(program, graph);
-  return text;
 }
 
 using PlanText = std::string (*)(const PlanData&);
@@ -89,10 +71,24 @@ int emit_files(const compiler::CompileResult& result, bool shaders) {
   return exit_done;
 }
 
+// The plan with the place of every row's declaration, which the planner does not know.
+PlanData with_places(PlanData plan, const dsl::Graph& graph, const dsl::SourceFiles& sources) {
+  const auto set = [&](auto& row, dsl::Span span) {
+    const std::string place = compiler::origin(sources, span);
+    const size_t colon = place.rfind(':');
+    if (colon == std::string::npos) return;
+    row.file = intern(place.substr(0, colon));
+    row.line = static_cast<uint32_t>(std::stoul(place.substr(colon + 1)));
+  };
+  for (size_t p = 0; p < plan.passes.size(); ++p) set(plan.passes[p], graph.passes.rows[plan.program_pass[p]].span);
+  for (size_t r = 0; r < plan.resources.size(); ++r) set(plan.resources[r], graph.resources.rows[plan.program_resource[r]].span);
+  return plan;
+}
+
 int emit_json(const compiler::CompileResult& result) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const compiler::CompiledGraph& graph : result.graphs)
-    for (const compiler::FramePlan& plan : graph.plans) all.push_back(plan_json(plan.plan));
+    for (const compiler::FramePlan& plan : graph.plans) all.push_back(plan_json(with_places(plan.plan, result.program.graphs[graph.graph], result.sources)));
   print(all.dump(2) + "\n");
   return exit_done;
 }
@@ -104,7 +100,7 @@ struct StageRow {
 };
 using compiler::Until;
 constexpr StageRow kStages[] = {
-    {"program", Until::program, [](const compiler::CompileResult& result) { return print(program_text(result.program)), int{exit_done}; }},
+    {"program", Until::program, [](const compiler::CompileResult& result) { return print(dsl::print_program(result.program)), int{exit_done}; }},
     {"graph", Until::program, emit_graphs},
     {"shaders", Until::shaders, emit_shaders},
     {"schedule", Until::plans, [](const compiler::CompileResult& result) { return emit_plans(result, schedule_text); }},
@@ -117,7 +113,7 @@ constexpr StageRow kStages[] = {
 };
 
 int emit(const EmitOptions& options) {
-  if (options.stage == "tokens") return emit_tokens(options.file);
+  if (options.stage == "tokens" || options.stage == "tree") return emit_syntax(options.file, options.stage == "tree");
   for (const StageRow& row : kStages) {
     if (options.stage != row.name) continue;
     compiler::CompileOptions compile = options.compile;
@@ -130,7 +126,7 @@ int emit(const EmitOptions& options) {
 }
 
 std::vector<std::string> stage_names() {
-  std::vector<std::string> names = {"tokens"};
+  std::vector<std::string> names = {"tokens", "tree"};
   for (const StageRow& row : kStages) names.push_back(row.name);
   return names;
 }
