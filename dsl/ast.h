@@ -276,6 +276,7 @@ struct File {
   std::vector<Declaration> declarations;
   bool has_error = false;   // something did not parse
   bool lost_names = false;  // ... and it was a declaration: unknown names may be our fault
+  bool lost_structure = false;  // braces do not match
 };
 
 }  // namespace rg::dsl::ast

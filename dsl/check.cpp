@@ -47,7 +47,7 @@ Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
   for (const Module& module : modules) check_target(checker, module.tree);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol) check_symbol(checker, symbol);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol)
-    if (checker.symbols[symbol].kind == SymbolKind::graph) check_graph(checker, symbol);
+    if (checker.symbols[symbol].kind == SymbolKind::graph && !modules[checker.symbols[symbol].module].tree.lost_structure) check_graph(checker, symbol);
   return std::move(checker.program);
 }
 

@@ -359,6 +359,11 @@ bool claim_name(Builder& at) {
   return false;
 }
 
+void drop_pass(Builder& at) {
+  at.scope.incomplete = true;
+  at.scope.failed["pass " + at.out.pass.name] = true;
+}
+
 }  // namespace
 
 void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaration& declaration) {
@@ -367,15 +372,12 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   if (!name) return void(scope.incomplete = true);
   at.out.pass.name = *name;
   if (!claim_name(at)) return;
+  if (declaration.kind.empty()) return drop_pass(at);
   read_heading(at);
   for (const ast::Statement& statement : declaration.statements) std::visit([&](const auto& node) { visit(at, node); }, statement);
   at.out.dropped |= declaration.has_error;
   check_work(at);
-  if (at.out.dropped) {
-    scope.incomplete = true;
-    scope.failed["pass " + *name] = true;
-    return;
-  }
+  if (at.out.dropped) return drop_pass(at);
   merge_reads_and_writes(at.out.pass);
   settle_modes(at);
   settle_stages(at.out.pass);

@@ -275,6 +275,13 @@ bool names_resource(const GraphScope& scope, const ast::Expr& expr) {
   return scope.resources.count(name) || scope.families.count(name) || scope.interfaces.count(name);
 }
 
+bool is_failed(const Checker& checker, const GraphScope& scope, const ast::Expr& expr) {
+  const ast::Expr& root = root_of(expr);
+  if (root.kind != ExprKind::name) return false;
+  if (scope.failed.count(scope.prefix + std::string(root.text))) return true;
+  return checker.lost_names && !names_resource(scope, expr) && !peek_symbol(checker, scope.module, root);
+}
+
 Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr) {
   const Walk walk{checker, scope};
   Place place;

@@ -175,6 +175,8 @@ std::optional<Role> find_role(std::string_view word);
 uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
 
 // ---- check_places.cpp -------------------------------------------------------------------------------------------
+// Whether `expr` begins with a name whose declaration was wrong: there is nothing more to say about it.
+bool is_failed(const Checker& checker, const GraphScope& scope, const ast::Expr& expr);
 Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr);
 // Reports a place that may not be written: an earlier frame's, or a technique's parameter without `inout`.
 bool check_writable(Checker& checker, GraphScope& scope, const Place& place, const ast::Expr& expr);

@@ -165,7 +165,7 @@ bool is_unknown_module(const Evaluator& at, const ast::Expr& owner) {
   if (!at.scope) return true;
   const auto& bindings = at.scope->bindings;
   const bool bound = std::any_of(bindings.begin(), bindings.end(), [&](const Binding& binding) { return binding.name == owner.text; });
-  return !bound && !at.scope->failed.count(at.scope->prefix + std::string(owner.text));
+  return !bound && !is_failed(at.checker, *at.scope, owner);
 }
 
 Value member(Evaluator& at, const ast::Expr& expr) {
@@ -175,6 +175,7 @@ Value member(Evaluator& at, const ast::Expr& expr) {
   } else if (const auto symbol = peek_symbol(at.checker, at.module, expr)) {
     return from_symbol(at, *symbol, expr);
   }
+  if (at.scope && is_failed(at.checker, *at.scope, expr)) return error_value();
   if (is_unknown_module(at, expr.operands[0])) {
     find_symbol(at.checker, at.module, expr, SymbolKind::constant);
     return error_value();
@@ -235,6 +236,7 @@ Value call(Evaluator& at, const ast::Expr& expr) {
     at.checker.report(DiagnosticKind::WrongArgumentCount, expr.span, {std::string(name), std::to_string(expr.operands.size() - 1)});
     return error_value();
   }
+  if (at.scope && is_failed(at.checker, *at.scope, expr)) return error_value();
   Diagnostic diagnostic(DiagnosticKind::UnknownFunction, callee.span, {spelled(callee)});
   const std::string guess = closest(callee.text, {"ceil", "floor", "min", "max", "mips"});
   if (!guess.empty()) diagnostic.fix(callee.span, guess);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <deque>
+#include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "dsl/check.h"
@@ -110,6 +112,15 @@ std::optional<uint32_t> load(Loader& loader, const std::string& path, Span span,
   return index;
 }
 
+// A mistake inside a loop is made once, however often the loop runs.
+Diagnostics without_repeats(const Diagnostics& all) {
+  Diagnostics kept;
+  std::set<std::tuple<DiagnosticKind, uint32_t, uint32_t, uint32_t>> seen;
+  for (const Diagnostic& diagnostic : all.rows())
+    if (!diagnostic.span.file.valid() || seen.emplace(diagnostic.kind, diagnostic.span.file.value, diagnostic.span.begin, diagnostic.span.end).second) kept.report(diagnostic);
+  return kept;
+}
+
 }  // namespace
 
 FrontEndResult load_program(const std::string& root_path, const ReadSource& read, Diagnostics& diagnostics) {
@@ -118,6 +129,7 @@ FrontEndResult load_program(const std::string& root_path, const ReadSource& read
   const bool loaded = load(loader, root_path.substr(loader.root_folder.size()), {}, 0).has_value();
   if (loaded) result.program = check(loader.modules, diagnostics);
   for (SourceFile& file : loader.files) result.files.add(std::move(file));
+  diagnostics = without_repeats(diagnostics);
   diagnostics.sort();
   return result;
 }

@@ -116,8 +116,11 @@ ast::Name Parser::expect_one_of(const char* what, Words words) {
   return name;
 }
 
+// A brace where none belongs: what follows will not match either.
 void Parser::complain(Diagnostic diagnostic) {
   any_error = true;
+  const bool brace = is(TokenKind::left_brace) || is(TokenKind::right_brace);
+  if (brace && diagnostic.span == here()) lost_structure = true;
   if (!silent) diagnostics.report(std::move(diagnostic));
   silent = true;
 }
@@ -133,6 +136,11 @@ void Parser::expected(const std::string& what) {
   complain({DiagnosticKind::ExpectedAfter, span(last), {what, std::string(text_of(last, text).substr(0, 40))}});
 }
 
+void Parser::unexpected(const std::string& what) {
+  if (is(TokenKind::invalid)) return expected(what);
+  complain({DiagnosticKind::UnexpectedToken, here(), {what, found(*this)}});
+}
+
 Nested::Nested(Parser& parser_) : parser(parser_), fits(++parser_.nesting <= kMaxNesting) {
   if (!fits) parser.complain({DiagnosticKind::NestingTooDeep, parser.here(), {std::to_string(kMaxNesting)}});
 }
@@ -144,9 +152,15 @@ bool starts_outer(const Parser& parser, Level level) {
   const bool named = parser.is(TokenKind::identifier, 1);
   if (level == Level::fields) return named && (begins_declaration(word) || begins_item(word)) && !parser.is(TokenKind::colon, 1);
   const bool opens_state = word == "state" && parser.is(TokenKind::left_brace, 2);
-  if (level == Level::graph) return (begins_declaration(word) || opens_state) && (named || parser.is(TokenKind::string, 1));
   if (begins_statement(word) && !opens_state) return false;
+  if (level == Level::graph) return begins_declaration(word) && (named || parser.is(TokenKind::string, 1));
   return (begins_item(word) || begins_declaration(word)) && named;
+}
+
+// `pass NAME :`, `image NAME[`: never inside a pass, however many braces seem to be open.
+bool starts_named_item(const Parser& parser) {
+  const bool declares = parser.is_word("pass") || parser.is_word("image") || parser.is_word("buffer");
+  return declares && parser.is(TokenKind::identifier, 1) && (parser.is(TokenKind::colon, 2) || parser.is(TokenKind::left_bracket, 2));
 }
 
 void resynchronise(Parser& parser, Level level) {
@@ -156,7 +170,7 @@ void resynchronise(Parser& parser, Level level) {
     if (parser.is(TokenKind::left_brace)) ++depth;
     if (parser.is(TokenKind::right_brace) && depth-- == 0) break;
     if (!parser.peek().starts_line || !parser.is(TokenKind::identifier)) continue;
-    if (starts_outer(parser, level)) break;
+    if (starts_outer(parser, level) || (level == Level::graph && starts_named_item(parser))) break;
     if (depth > 0) continue;
     const std::string_view word = parser.word();
     if (level == Level::file && begins_declaration(word)) break;
@@ -167,16 +181,21 @@ void resynchronise(Parser& parser, Level level) {
   parser.silent = false;
 }
 
+// To the `{` on this line, if there is one.
+bool skip_to_block(Parser& parser) {
+  size_t ahead = 0;
+  while (!parser.is(TokenKind::left_brace, ahead) && !parser.is(TokenKind::end_of_file, ahead) && !parser.is(TokenKind::right_brace, ahead) &&
+         !(ahead > 0 && parser.peek(ahead).starts_line))
+    ++ahead;
+  if (!parser.is(TokenKind::left_brace, ahead)) return false;
+  parser.at += ahead;
+  return true;
+}
+
+// After a wrong heading the block, if it follows, is still worth reading.
 bool open_block(Parser& parser) {
-  if (parser.silent) {  // the heading was wrong: its block, if it follows, is still worth reading
-    size_t ahead = 0;
-    while (!parser.is(TokenKind::left_brace, ahead) && !parser.is(TokenKind::end_of_file, ahead) && !parser.is(TokenKind::right_brace, ahead) &&
-           !(ahead > 0 && parser.peek(ahead).starts_line))
-      ++ahead;
-    if (!parser.is(TokenKind::left_brace, ahead)) return false;
-    parser.at += ahead;
-  }
-  const bool opened = parser.expect(TokenKind::left_brace);
+  if (parser.silent && !skip_to_block(parser)) return false;
+  const bool opened = parser.expect(TokenKind::left_brace) || (skip_to_block(parser) && parser.accept(TokenKind::left_brace));
   const bool follows = opened || (parser.is(TokenKind::identifier) && (begins_statement(parser.word()) || begins_item(parser.word())));
   if (follows) parser.silent = false;
   return follows;
@@ -184,7 +203,9 @@ bool open_block(Parser& parser) {
 
 void close_block(Parser& parser, Span open) {
   if (parser.accept(TokenKind::right_brace)) return;
-  if (parser.silent) return;
+  const bool known = parser.lost_structure;
+  parser.lost_structure = true;
+  if (parser.silent || known) return;
   if (parser.at == 0) return;
   const Token& last = parser.tokens[parser.at - 1];
   Diagnostic diagnostic(DiagnosticKind::BlockNotClosed, parser.span(last));

@@ -263,7 +263,9 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
   if (items.empty() || !parser.is(TokenKind::identifier) || !begins_statement(parser.word())) return false;
   auto* pass = std::get_if<PassDeclaration>(&items.back().node);
   if (!pass) return false;
-  parser.complain({DiagnosticKind::StatementOutsidePass, parser.here(), {std::string(parser.word())}});
+  const Span brace = parser.span(parser.tokens[parser.at - 1]);
+  if (!parser.lost_structure) parser.complain({DiagnosticKind::StatementOutsidePass, brace, {std::string(parser.word())}});
+  parser.lost_structure = true;
   resynchronise(parser, Level::graph);
   pass->has_error = true;
   if (parser.is(TokenKind::right_brace)) parser.take();
@@ -271,7 +273,7 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
 }
 
 void complain_about_item(Parser& parser) {
-  if (!parser.is(TokenKind::identifier)) return parser.expected("`image`, `buffer`, `pass` or another item of a graph");
+  if (!parser.is(TokenKind::identifier)) return parser.unexpected("`image`, `buffer`, `pass` or another item of a graph");
   Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
@@ -290,14 +292,14 @@ void parse_item(Parser& parser, std::vector<Item>& items) {
   else if (!rejoin_pass(parser, items)) complain_about_item(parser);
 }
 
-void parse_one_declaration(Parser& parser, File& file);
-
 // Items after a `}` too many still belong to the graph before it.
 bool rejoin_graph(Parser& parser, File& file) {
   if (file.declarations.empty() || !parser.is(TokenKind::identifier) || !begins_item(parser.word())) return false;
   auto* graph = std::get_if<GraphDeclaration>(&file.declarations.back());
   if (!graph) return false;
-  parser.complain({DiagnosticKind::ItemOutsideGraph, parser.here(), {std::string(parser.word())}});
+  const Span brace = parser.span(parser.tokens[parser.at - 1]);
+  if (!parser.lost_structure) parser.complain({DiagnosticKind::ItemOutsideGraph, brace, {std::string(parser.word())}});
+  parser.lost_structure = true;
   parser.silent = false;
   graph->has_error = true;
   while (!parser.done() && !parser.accept(TokenKind::right_brace) && !starts_outer(parser, Level::graph)) {
@@ -310,7 +312,7 @@ bool rejoin_graph(Parser& parser, File& file) {
 }
 
 void complain_about_declaration(Parser& parser) {
-  if (!parser.is(TokenKind::identifier)) return parser.expected("a declaration");
+  if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(
       parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state", "feature", "condition", "set", "graph", "technique"});
@@ -330,7 +332,7 @@ StructDeclaration parse_struct_declaration(Parser& parser) {
   return parse_struct(parser);
 }
 
-void parse_one_declaration(Parser& parser, File& file) {
+void parse_any_declaration(Parser& parser, File& file) {
   const std::string_view word = parser.is(TokenKind::identifier) ? parser.word() : std::string_view();
   auto& out = file.declarations;
   if (word == "module") parse_module(parser, file);
@@ -349,6 +351,14 @@ void parse_one_declaration(Parser& parser, File& file) {
   else if (!rejoin_graph(parser, file)) complain_about_declaration(parser);
 }
 
+// Half a declaration would only cause more messages; its name counts as lost.
+void parse_one_declaration(Parser& parser, File& file) {
+  const size_t count = file.declarations.size();
+  parse_any_declaration(parser, file);
+  const bool half = parser.silent && file.declarations.size() > count && !std::holds_alternative<GraphDeclaration>(file.declarations.back());
+  if (half) file.declarations.pop_back();
+}
+
 }  // namespace
 
 void parse_items(Parser& parser, std::vector<Item>& items) {
@@ -362,6 +372,7 @@ GraphDeclaration parse_graph(Parser& parser, bool is_technique) {
   graph.name = parser.expect_name(is_technique ? "the name of the technique" : "the name of the graph");
   parse_parameters(parser, graph);
   graph.has_error = parser.silent;
+  parser.lost_names |= parser.silent;
   parse_items(parser, graph.body);
   return graph;
 }
@@ -378,6 +389,7 @@ File parse(FileId file_id, std::string_view text, const Tokens& tokens, Diagnost
   }
   file.has_error = parser.any_error;
   file.lost_names = parser.lost_names;
+  file.lost_structure = parser.lost_structure;
   return file;
 }
 

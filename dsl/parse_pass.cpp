@@ -51,7 +51,7 @@ bool parse_access_option(Parser& parser, ast::AccessStatement& access) {
 void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options) {
   if (parser.silent || parser.peek().starts_line || parser.is(TokenKind::right_brace)) return;
   if (parser.is(TokenKind::identifier) && begins_statement(parser.word())) return;
-  if (!parser.is(TokenKind::identifier)) return parser.expected("the end of the statement");
+  if (!parser.is(TokenKind::identifier)) return parser.unexpected("the end of the statement");
   Diagnostic diagnostic(DiagnosticKind::UnknownOption, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), options);
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
@@ -130,7 +130,7 @@ void parse_draw_block(Parser& parser, ast::DrawStatement& draw) {
     } else if (parser.accept_word("vertex")) {
       draw.vertex.push_back(parse_place(parser, "a struct"));
     } else {
-      parser.expected("`per_draw` or `vertex`");
+      parser.unexpected("`per_draw` or `vertex`");
     }
   });
 }
@@ -190,7 +190,7 @@ ast::HostTransfer parse_host_transfer(Parser& parser) {
     if (parser.is_word("read") || parser.is_word("write") || parser.is_word("update"))
       host.accesses.push_back(parse_access(parser, parser.is_word("read") ? ast::Verb::read : parser.is_word("write") ? ast::Verb::write : ast::Verb::update));
     else
-      parser.expected("`read`, `write` or `update`");
+      parser.unexpected("`read`, `write` or `update`");
   });
   return host;
 }
@@ -243,7 +243,7 @@ ast::Statement parse_other(Parser& parser) {
 }
 
 void complain_about_statement(Parser& parser) {
-  if (!parser.is(TokenKind::identifier)) return parser.expected("a statement");
+  if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
   static const std::vector<std::string_view> kWords = {"read",  "write",    "update", "atomic", "color",   "depth",  "stencil", "resolve", "params", "shader", "fullscreen", "state",
                                                        "dispatch", "draw", "bind",  "copy",   "blit",   "clear",   "fill",   "host",    "after",   "keep"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
@@ -253,6 +253,7 @@ void complain_about_statement(Parser& parser) {
 }
 
 void parse_statement(Parser& parser, PassDeclaration& pass) {
+  const size_t count = pass.statements.size();
   if (!parser.is(TokenKind::identifier) || !begins_statement(parser.word())) {
     complain_about_statement(parser);
   } else if (is_transfer_update(parser, pass)) {
@@ -263,6 +264,7 @@ void parse_statement(Parser& parser, PassDeclaration& pass) {
   }
   if (!parser.silent) return;
   pass.has_error = true;
+  if (pass.statements.size() > count) pass.statements.pop_back();  // half a statement would only cause more messages
 }
 
 void parse_queue(Parser& parser, PassDeclaration& pass) {

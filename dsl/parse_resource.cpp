@@ -105,11 +105,14 @@ ast::ResourceDeclaration parse_resource(Parser& parser) {
   resource.is_buffer = parser.is_word("buffer");
   parser.take();
   resource.name = parser.expect_name(resource.is_buffer ? "the name of the buffer" : "the name of the image");
+  parser.lost_names |= resource.name.empty();
   if (parser.accept(TokenKind::left_bracket)) {
     resource.index = parse_expression(parser, "an index");
     parser.expect(TokenKind::right_bracket);
   }
-  if (!parser.expect(TokenKind::colon) && !parser.is(TokenKind::identifier)) return finish(parser, std::move(resource));
+  const bool colon = parser.expect(TokenKind::colon);
+  if (!colon && parser.is(TokenKind::colon, 1) && !parser.peek(1).starts_line) parser.at += 2;  // one word too many
+  if (!colon && !parser.is(TokenKind::identifier)) return finish(parser, std::move(resource));
   const bool missing_colon = parser.silent;
   parser.silent = false;
   if (!resource.is_buffer) {

@@ -39,7 +39,7 @@ ast::StructDeclaration parse_struct(Parser& parser) {
     parser.expect(TokenKind::colon);
     if (!parser.silent || parser.is(TokenKind::identifier)) field.type = parse_type(parser);
     parser.accept(TokenKind::comma);
-    record.fields.push_back(std::move(field));
+    if (!parser.silent) record.fields.push_back(std::move(field));
   });
   return record;
 }

@@ -25,7 +25,8 @@ struct Parser {
   uint32_t nesting = 0;
   bool silent = false;
   bool any_error = false;
-  bool lost_names = false;  // a declaration was skipped
+  bool lost_names = false;      // a declaration was skipped
+  bool lost_structure = false;  // braces do not match: what stands inside what is a guess
 
   const Token& peek(size_t ahead = 0) const { return tokens[std::min(at + ahead, tokens.size() - 1)]; }
   std::string_view word(size_t ahead = 0) const { return text_of(peek(ahead), text); }
@@ -49,7 +50,8 @@ struct Parser {
   ast::Name expect_one_of(const char* what, std::initializer_list<std::string_view> words);
 
   void complain(Diagnostic diagnostic);
-  void expected(const std::string& what);
+  void expected(const std::string& what);    // at the end of the line before, if that is where it is missing
+  void unexpected(const std::string& what);  // at what is there instead
 };
 
 struct Nested {  // counts one level of nesting; complains when it is too deep
