@@ -31,20 +31,21 @@ class Chains {
   // True if, once the groups before `end` have been recorded, all of `wanted` come after `stage` of a command in `segment` of this frame or the
   // frame before.
   bool reaches(Stages stage, uint32_t segment, bool wraps, uint32_t end, Stages wanted) const {
-    Stages reach = stage;
+    // Later commands of the event's own stage come after it only once a barrier has been crossed.
+    Stages reach = 0;
     if (wraps) {
-      walk(segment + 1, static_cast<uint32_t>(distinct_.size()), wanted, reach);
-      walk(0, end, wanted, reach);
+      walk(segment + 1, static_cast<uint32_t>(distinct_.size()), stage, wanted, reach);
+      walk(0, end, stage, wanted, reach);
     } else {
-      walk(segment + 1, end, wanted, reach);
+      walk(segment + 1, end, stage, wanted, reach);
     }
     return (reach & wanted) == wanted;
   }
 
  private:
-  void walk(uint32_t first, uint32_t end, Stages wanted, Stages& reach) const {
+  void walk(uint32_t first, uint32_t end, Stages stage, Stages wanted, Stages& reach) const {
     for (uint32_t g = first; g < end && (reach & wanted) != wanted; ++g) {
-      const Stages before = reach;  // barriers of one group do not chain
+      const Stages before = stage | reach;  // barriers of one group do not chain
       for (const Scopes& scopes : distinct_[g])
         if (scopes.first & before) reach |= scopes.second;
     }
