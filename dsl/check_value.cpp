@@ -165,7 +165,7 @@ bool is_unknown_module(const Evaluator& at, const ast::Expr& owner) {
   if (!at.scope) return true;
   const auto& bindings = at.scope->bindings;
   const bool bound = std::any_of(bindings.begin(), bindings.end(), [&](const Binding& binding) { return binding.name == owner.text; });
-  return !bound && !is_failed(at.checker, *at.scope, owner);
+  return !bound && !names_resource(*at.scope, owner) && !is_failed(at.checker, *at.scope, owner);
 }
 
 Value member(Evaluator& at, const ast::Expr& expr) {

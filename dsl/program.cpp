@@ -14,6 +14,18 @@ int64_t saturate(bool overflows, int64_t value, bool negative) {
   return negative ? INT64_MIN : INT64_MAX;
 }
 
+int64_t add(int64_t a, int64_t b) {
+  int64_t out = 0;
+  const bool overflows = __builtin_add_overflow(a, b, &out);
+  return saturate(overflows, out, a < 0);
+}
+
+int64_t subtract(int64_t a, int64_t b) {
+  int64_t out = 0;
+  const bool overflows = __builtin_sub_overflow(a, b, &out);
+  return saturate(overflows, out, a < 0);
+}
+
 int64_t multiply(int64_t a, int64_t b) {
   int64_t out = 0;
   const bool overflows = __builtin_mul_overflow(a, b, &out);
@@ -21,10 +33,9 @@ int64_t multiply(int64_t a, int64_t b) {
 }
 
 int64_t apply(const Expr& expr, int64_t a, int64_t b) {
-  int64_t out = 0;
   switch (expr.op) {
-    case ExprOp::add: return saturate(__builtin_add_overflow(a, b, &out), out, a < 0);
-    case ExprOp::sub: return saturate(__builtin_sub_overflow(a, b, &out), out, a < 0);
+    case ExprOp::add: return add(a, b);
+    case ExprOp::sub: return subtract(a, b);
     case ExprOp::mul: return multiply(a, b);
     case ExprOp::floor_div: return b == 0 ? 0 : floor_div(a, b);
     case ExprOp::ceil_div: return b == 0 ? 0 : floor_div(a, b) + (a % b != 0 ? 1 : 0);
