@@ -41,18 +41,20 @@ VkImageMemoryBarrier2 to_fill(VkImage image, const VkImageSubresourceRange& rang
 
 void poison_images(const Sized& sized, Index resource, GroupTable& group, PoisonTable& poison) {
   const VkImage image = sized.images[sized.resources[resource].first].get();
-  for (VkImageMemoryBarrier2& barrier : group.images) {
+  const size_t one_phase = group.images.size() / group.period;  // the same barriers again in every phase
+  for (size_t i = 0; i < group.images.size(); ++i) {
+    VkImageMemoryBarrier2& barrier = group.images[i];
     if (barrier.image != image || barrier.oldLayout != VK_IMAGE_LAYOUT_UNDEFINED) continue;
-    poison.targets.push_back({resource, barrier.subresourceRange});
-    poison.images.push_back(to_fill(image, barrier.subresourceRange));
+    if (i < one_phase) poison.targets.push_back({resource, barrier.subresourceRange});
+    if (i < one_phase) poison.images.push_back(to_fill(image, barrier.subresourceRange));
     start_from_fill(barrier);
   }
 }
 
 void poison_buffer(const Acquire& acquire, Index resource, GroupTable& group, PoisonTable& poison) {
   poison.targets.push_back({resource, {}});
-  group.memory.push_back(
-      {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, acquire.stages, acquire.accesses});
+  const Stages users = (acquire.stages & kFillStages) != 0 ? acquire.stages | kFillStages : acquire.stages;
+  group.memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT, users, acquire.accesses});
   for (VkDependencyInfo& info : group.infos) {
     info.memoryBarrierCount = static_cast<uint32_t>(group.memory.size());
     info.pMemoryBarriers = group.memory.data();

@@ -56,6 +56,19 @@ TEST_F(Placement, PoisonFillsWhatIsAcquired) {
   EXPECT_NE(text.find("layout 7->7"), std::string::npos);  // the plan's barrier starts from the fill
 }
 
+TEST_F(Placement, PoisonFillsOnceWhereTheGroupHasPhases) {
+  test::Aliased t = test::aliased();
+  const Index history = t.plan.buffer("history", t.plan.constant(64), test::kStorageBuffer, Lifetime::history);
+  t.plan.resources[history].copies = 2;
+  t.plan.groups[0].first_buffer = static_cast<Index>(t.plan.buffer_barriers.size()), t.plan.groups[0].buffer_count = 1;
+  t.plan.buffer_barriers.push_back(
+      test::buffer_barrier({history, 1}, stage::compute_shader, access::shader_storage_write, stage::compute_shader, access::shader_storage_read));
+  GraphOptions options;
+  options.poison = true;
+  GraphInstance graph = make(t.plan, options);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(test::calls(frame(graph), "vkCmdClearColorImage").size(), 4u);
+}
+
 TEST_F(Placement, MipsAreClampedToTheFullChain) {
   test::Mips t = test::mips();
   GraphInstance graph = make(t.plan);
