@@ -14,9 +14,8 @@ struct Side {
   bool defined = true;   // holds contents
   bool needs = false;    // as the later side: depends on contents
   std::vector<Event> events;
+  bool skippable = false;  // every use may be skipped, so that what came before meets what comes after
 };
-
-Side side_of(const Epoch& epoch, bool defined) { return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events}; }
 
 const char* hazard_name(const Side& from, const Side& to, bool discards) {
   if (!from.defined && from.events.empty()) return "first use";
@@ -47,6 +46,11 @@ class Synchroniser {
   }
 
  private:
+  Side side_of(uint32_t cell, const Epoch& epoch, bool defined) const {
+    const bool skippable = std::all_of(epoch.events.begin(), epoch.events.end(), [&](const Event& event) { return may_skip(frame_, event.pass, frame_.cells[cell]); });
+    return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events, skippable};
+  }
+
   bool is_image(uint32_t cell) const { return frame_.resource_of(cell).kind == dsl::ResourceKind::image; }
   uint32_t cell_at(const Line& line, uint32_t age) const { return line.cell + age * frame_.grids[frame_.cells[line.cell].resource].cells_per_age(); }
 
@@ -89,6 +93,8 @@ class Synchroniser {
       b.dst_stages = e.read_stages | earliest_stages(e.write_stages), b.dst_accesses = e.reads;
     else
       b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
+    // Without the readers in between this is a write after the write before them: made available by the barrier that serves them, not yet visible.
+    if (from.skippable && from.defined && to.writes) b.dst_stages |= e.write_stages, b.dst_accesses |= e.writes;
   }
 
   // Nothing to order and nothing to change.
@@ -104,7 +110,7 @@ class Synchroniser {
   bool connect_within(const Line& line, size_t first, size_t end, bool defined) {
     for (size_t i = first; i < end; ++i) {
       const Epoch& to = line.epochs[i];
-      if (i > first) add(to.first_segment, connect(cell_at(line, to.age), side_of(line.epochs[i - 1], defined), side_of(to, true)));
+      if (i > first) add(to.first_segment, connect(cell_at(line, to.age), side_of(line.cell, line.epochs[i - 1], defined), side_of(line.cell, to, true)));
       defined = defined || to.writes;
     }
     return defined;
@@ -114,8 +120,8 @@ class Synchroniser {
 
   void transient(const Line& line) {
     const uint32_t resource = frame_.cells[line.cell].resource, group = first_segment_[resource];
-    Side last = side_of(line.epochs.back(), false);
-    CellBarrier acquire = connect(line.cell, last, side_of(line.epochs.front(), true));
+    const Side last = side_of(line.cell, line.epochs.back(), false);
+    CellBarrier acquire = connect(line.cell, last, side_of(line.cell, line.epochs.front(), true));
     acquire.is_acquire = acquire.wraps = true;
     add(group, std::move(acquire));
     connect_within(line, 0, line.epochs.size(), false);
@@ -141,7 +147,7 @@ class Synchroniser {
     for (size_t i = 0; i < epochs.size(); ++i) {
       const Epoch &from = epochs[(i + epochs.size() - 1) % epochs.size()], &to = epochs[i];
       if (continues(from, to)) continue;
-      CellBarrier b = connect(cell_at(line, to.age), side_of(from, true), side_of(to, true));
+      CellBarrier b = connect(cell_at(line, to.age), with_continued_reads(line, i), side_of(line.cell, to, true));
       b.wraps = i == 0 || from.age != to.age;
       add(to.first_segment, std::move(b));
     }
@@ -157,6 +163,19 @@ class Synchroniser {
     }
   }
 
+  // The epoch before epochs[i] with the reads it continues over frame boundaries: whoever writes next waits for all of them.
+  Side with_continued_reads(const Line& line, size_t i) const {
+    const size_t n = line.epochs.size();
+    Side side = side_of(line.cell, line.epochs[(i + n - 1) % n], true);
+    for (size_t back = 2; back <= n && continues(line.epochs[(i + n - back) % n], line.epochs[(i + n - back + 1) % n]); ++back) {
+      const Side earlier = side_of(line.cell, line.epochs[(i + n - back) % n], true);
+      merge(side.effect, earlier.effect);
+      side.events.insert(side.events.end(), earlier.events.begin(), earlier.events.end());
+      side.skippable = side.skippable && earlier.skippable;
+    }
+    return side;
+  }
+
   void imported(const Line& line) {
     const dsl::Resource& resource = frame_.resource_of(line.cell);
     const uint32_t aspect = frame_.cells[line.cell].range.aspects;
@@ -165,12 +184,12 @@ class Synchroniser {
     Line whole = line;
     cover_after(whole, before, after);
     const Epoch& first = whole.epochs.front();
-    if (!is_visible(before, first)) add(first.first_segment, connect(line.cell, before, side_of(first, true)));
+    if (!is_visible(before, first)) add(first.first_segment, connect(line.cell, before, side_of(line.cell, first, true)));
     const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
     const Epoch& last = whole.epochs.back();
-    const Side next{after, after.writes != 0, true, true, {}};
+    const Side next{after, after.writes != 0, true, true, {}, false};
     const bool stays = resource.after.role == dsl::Role::undefined || (!last.writes && !next.writes && (after.layout == last.effect.layout));
-    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(last, defined), next)});
+    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, defined), next)});
     boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
     const bool undefined_after = resource.after.role == dsl::Role::undefined;
     boundary(sync_.exit, line.cell, undefined_after ? last.effect : after, undefined_after ? last.writes : next.writes,
@@ -180,7 +199,7 @@ class Synchroniser {
   // Contents of unknown state are worthless. A presented image is handed over by a semaphore, waited for at its first use; another one is ordered
   // after whatever `after` says was done with it.
   Side state_before(const dsl::Resource& resource, uint32_t aspect, const Epoch& first) const {
-    Side side{effect_of(resource.before, aspect), false, true, true, {}};
+    Side side{effect_of(resource.before, aspect), false, true, true, {}, false};
     side.writes = side.effect.writes != 0;
     if (resource.before.role != dsl::Role::undefined) return side;
     side.defined = false;
@@ -206,7 +225,7 @@ class Synchroniser {
     const Epoch& last = line.epochs.back();
     Effect host;
     host.read_stages = stage::host, host.reads = access::host_read;
-    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(last, true), {host, false, true, true, {}})});
+    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false})});
     boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
     boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
   }
