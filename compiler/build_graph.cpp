@@ -18,9 +18,7 @@ struct Version {
 
 class Builder {
  public:
-  Builder(const Frame& frame, Graph& graph) : frame_(frame), graph_(graph), versions_(frame.cells.size()) {
-    graph_.entry_cells.resize(frame.passes.size());
-  }
+  Builder(const Frame& frame, Graph& graph) : frame_(frame), graph_(graph), versions_(frame.cells.size()) {}
 
   void add(const Use& use) {
     Version& version = versions_[use.cell];
@@ -45,7 +43,6 @@ class Builder {
   }
   void depend_on_contents(const std::vector<uint32_t>& writers, const Use& use) {
     depend(writers, use, use.needs ? DependencyKind::read_after_write : DependencyKind::write_after_write);
-    if (writers.empty() && use.needs) graph_.entry_cells[use.pass].push_back(use.cell);
   }
 
   void read(const Use& use, Version& version) {

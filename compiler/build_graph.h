@@ -32,7 +32,6 @@ struct Dependency {
 struct Graph {
   std::vector<Dependency> dependencies;     // by `after`, then `before`; one row a pair, cell and kind; before < after always
   std::vector<std::vector<uint32_t>> last_writers;     // by cell: writers of the version that reaches the end of the frame
-  std::vector<std::vector<uint32_t>> entry_cells;      // by pass: cells whose contents at the start of the frame it depends on
 };
 
 // Considers passes with live[pass] only. O(uses + dependencies); a version with r readers and w sharing writers has r * w of them.

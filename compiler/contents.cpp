@@ -15,14 +15,10 @@ bool defined_at_entry(const dsl::Resource& resource) {
   return resource.lifetime == dsl::Lifetime::history || resource.lifetime == dsl::Lifetime::persistent;
 }
 
-// Whether what is there after the last epoch of the line is wanted.
-bool needed_at_exit(const dsl::Resource& resource, const Line& line) {
-  switch (resource.lifetime) {
-    case dsl::Lifetime::transient: return resource.is_output;
-    case dsl::Lifetime::imported:
-    case dsl::Lifetime::readback: return true;
-    default: return resource.is_output || line.epochs.front().needs;
-  }
+// Whether what is there after the last epoch is wanted.
+bool needed_at_exit(const dsl::Resource& resource, uint32_t age, uint32_t ages) {
+  if (resource.lifetime == dsl::Lifetime::history) return age + 1 < ages;
+  return resource.is_output || resource.lifetime != dsl::Lifetime::transient;
 }
 
 }  // namespace
@@ -36,7 +32,7 @@ ContentsOfUses find_contents(const Frame& frame, const std::vector<Line>& lines)
     for (size_t i = 0; i < line.epochs.size(); ++i) {
       const Epoch& epoch = line.epochs[i];
       const bool last = i + 1 == line.epochs.size();
-      const bool needed = epoch.events.size() > 1 || (last ? needed_at_exit(resource, line) : line.epochs[i + 1].needs);
+      const bool needed = epoch.events.size() > 1 || (last ? needed_at_exit(resource, epoch.age, frame.grids[frame.cells[line.cell].resource].ages) : line.epochs[i + 1].needs);
       for (size_t e = 0; e < epoch.events.size(); ++e)
         result[use_index(frame, epoch.events[e].pass, line.cell + epoch.age * stride)] = {defined || (epoch.writes && e > 0), needed};
       defined = defined || epoch.writes;

@@ -5,22 +5,11 @@
 namespace rg::compiler {
 namespace {
 
-bool is_observable(const dsl::Resource& resource) {
-  return resource.is_output || resource.lifetime == dsl::Lifetime::imported || resource.lifetime == dsl::Lifetime::readback;
-}
-
-// The cell whose contents at the end of a frame are these contents at the start of a later one; UINT32_MAX: none.
-uint32_t feeding_cell(const Frame& frame, uint32_t cell) {
-  const dsl::Lifetime lifetime = frame.resource_of(cell).lifetime;
-  if (lifetime == dsl::Lifetime::persistent) return cell;
-  if (lifetime != dsl::Lifetime::history) return UINT32_MAX;
-  const uint32_t stride = frame.grids[frame.cells[cell].resource].cells_per_age();
-  return cell - frame.cells[cell].age * stride;
-}
+bool is_observable(const dsl::Resource& resource) { return resource.is_output || resource.lifetime != dsl::Lifetime::transient; }
 
 class Marker {
  public:
-  Marker(const Frame& frame, const Graph& graph, Liveness& result) : frame_(frame), graph_(graph), result_(result), needed_(frame.passes.size()) {
+  Marker(const Frame& frame, const Graph& graph, Liveness& result) : frame_(frame), result_(result), needed_(frame.passes.size()) {
     for (const Dependency& d : graph.dependencies)
       if (d.kind == DependencyKind::read_after_write) needed_[d.after].push_back(&d);
   }
@@ -37,20 +26,11 @@ class Marker {
       const uint32_t pass = pending_.back();
       pending_.pop_back();
       for (const Dependency* d : needed_[pass]) mark(d->before, "`" + frame_.resource_of(d->cell).name + "` is used by `" + frame_.pass(pass).name + "`");
-      for (const uint32_t cell : graph_.entry_cells[pass]) mark_feeders(pass, cell);
     }
   }
 
  private:
-  void mark_feeders(uint32_t reader, uint32_t cell) {
-    const uint32_t feeding = feeding_cell(frame_, cell);
-    if (feeding == UINT32_MAX) return;
-    for (const uint32_t writer : graph_.last_writers[feeding])
-      mark(writer, "`" + frame_.resource_of(cell).name + "` is used by `" + frame_.pass(reader).name + "` in a later frame");
-  }
-
   const Frame& frame_;
-  const Graph& graph_;
   Liveness& result_;
   std::vector<std::vector<const Dependency*>> needed_;
   std::vector<uint32_t> pending_;

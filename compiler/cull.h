@@ -1,8 +1,7 @@
 // Which passes reach something observable.
 //
-// Roots: last writers of imported, read-back and `output` resources, and passes marked `keep`. From there backwards through every version a live
-// pass depends on. Contents that cross the frame boundary count where a live pass reads them: the last writers of a persistent resource, and of
-// a history resource's current copy.
+// Roots: last writers of everything that outlives the frame (imported, history, persistent, read back), of `output` resources, and passes marked
+// `keep`. From there backwards through every version a live pass depends on.
 #pragma once
 
 #include <vector>

@@ -12,7 +12,8 @@ struct Scopes {  // of one barrier, completed: the first with logically earlier 
 };
 Scopes scopes_of(const CellBarrier& b) { return {with_earlier(b.src_stages), with_later(b.dst_stages)}; }
 
-// How execution scopes chain over the groups of a frame and on into the next: a stage is reached where its later commands come after the event.
+// How execution scopes chain over the groups of a frame: a stage is reached where its later commands come after the event. What happened in the frame
+// before counts from the start of this one: the boundary state promises no more.
 class Chains {
  public:
   explicit Chains(const SyncPlan& sync) : sync_(sync), distinct_(sync.groups.size()) {
@@ -28,28 +29,18 @@ class Chains {
     }
   }
 
-  // True if, once the groups before `end` have been recorded, all of `wanted` come after `stage` of a command in `segment` of this frame or the
-  // frame before.
-  bool reaches(Stages stage, uint32_t segment, bool wraps, uint32_t end, Stages wanted) const {
-    // Later commands of the event's own stage come after it only once a barrier has been crossed.
+  // True if, once the groups [first, end) have been recorded, all of `wanted` come after `stage` of an earlier command.
+  bool reaches(Stages stage, uint32_t first, uint32_t end, Stages wanted) const {
     Stages reach = 0;
-    if (wraps) {
-      walk(segment + 1, static_cast<uint32_t>(distinct_.size()), stage, wanted, reach);
-      walk(0, end, stage, wanted, reach);
-    } else {
-      walk(segment + 1, end, stage, wanted, reach);
-    }
-    return (reach & wanted) == wanted;
-  }
-
- private:
-  void walk(uint32_t first, uint32_t end, Stages stage, Stages wanted, Stages& reach) const {
     for (uint32_t g = first; g < end && (reach & wanted) != wanted; ++g) {
       const Stages before = stage | reach;  // barriers of one group do not chain
       for (const Scopes& scopes : distinct_[g])
         if (scopes.first & before) reach |= scopes.second;
     }
+    return (reach & wanted) == wanted;
   }
+
+ private:
   const SyncPlan& sync_;
   std::vector<std::vector<Scopes>> distinct_;  // by group
 };
@@ -58,16 +49,16 @@ template <class Holds>
 bool for_all_events(const CellBarrier& b, Holds holds) {
   return std::all_of(b.sources.begin(), b.sources.end(), [&](const Event& event) {
     for (Stages rest = event.stages; rest; rest &= rest - 1)
-      if (!holds(rest & ~(rest - 1), event.segment)) return false;
+      if (!holds(rest & ~(rest - 1), b.wraps ? 0 : event.segment + 1)) return false;
     return true;
   });
 }
 
 // Barriers of one group do not chain, so groups before `index` only.
-bool reaches_any(const Chains& chains, const CellBarrier& b, Stages stage, uint32_t segment, uint32_t index, Stages any_of) {
+bool reaches_any(const Chains& chains, Stages stage, uint32_t first, uint32_t index, Stages any_of) {
   if (stage & any_of) return true;
   for (Stages rest = any_of; rest; rest &= rest - 1)
-    if (chains.reaches(stage, segment, b.wraps, index, rest & ~(rest - 1))) return true;
+    if (chains.reaches(stage, first, index, rest & ~(rest - 1))) return true;
   return false;
 }
 
@@ -75,11 +66,11 @@ bool execution_only(const CellBarrier& b) { return b.src_accesses == 0 && b.dst_
 
 // What the barrier orders is ordered by the groups before its own, or by another barrier of its group.
 bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index) {
-  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t segment) {
-    if (chains.reaches(stage, segment, b.wraps, index, b.dst_stages)) return true;
+  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) {
+    if (chains.reaches(stage, first, index, b.dst_stages)) return true;
     return std::any_of(group.begin(), group.end(), [&](const CellBarrier& other) {
       const Scopes scopes = scopes_of(other);
-      return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, b, stage, segment, index, scopes.first);
+      return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, stage, first, index, scopes.first);
     });
   });
 }
@@ -88,7 +79,7 @@ bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, con
 bool reaches_without(const Chains& chains, const CellBarrier& b, uint32_t index, Stages dropped) {
   const Stages rest = with_earlier(b.src_stages & ~dropped);
   return !b.sources.empty() &&
-         for_all_events(b, [&](Stages stage, uint32_t segment) { return reaches_any(chains, b, stage, segment, index, rest); });
+         for_all_events(b, [&](Stages stage, uint32_t first) { return reaches_any(chains, stage, first, index, rest); });
 }
 
 }  // namespace
