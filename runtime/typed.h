@@ -18,9 +18,15 @@ struct Required {
   T value;
 };
 
-struct Size1 { uint32_t width = 1; };
-struct Size2 { uint32_t width = 1, height = 1; };
-struct Size3 { uint32_t width = 1, height = 1, depth = 1; };
+struct Size1 {
+  uint32_t width = 1;
+};
+struct Size2 {
+  uint32_t width = 1, height = 1;
+};
+struct Size3 {
+  uint32_t width = 1, height = 1, depth = 1;
+};
 
 // Of a plan, at the initial extents and by the device profile it was compiled for.
 struct Figures {
@@ -33,14 +39,17 @@ struct Figures {
 // Inside a raster pass: rendering has begun, viewport and scissor cover the target.
 struct RasterRecording : Recording {
   void bind_pipeline(VkPipeline pipeline) const { vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline); }
-  void bind_vertices(uint32_t binding, VkBuffer buffer, VkDeviceSize offset = 0) const { vk.CmdBindVertexBuffers(commands, binding, 1, &buffer, &offset); }
+  void bind_vertices(uint32_t binding, VkBuffer buffer, VkDeviceSize offset = 0) const {
+    vk.CmdBindVertexBuffers(commands, binding, 1, &buffer, &offset);
+  }
   void bind_indices(VkBuffer buffer, VkDeviceSize offset = 0, VkIndexType type = VK_INDEX_TYPE_UINT32) const {
     vk.CmdBindIndexBuffer(commands, buffer, offset, type);
   }
   void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0, uint32_t first_instance = 0) const {
     vk.CmdDraw(commands, vertices, instances, first_vertex, first_instance);
   }
-  void draw_indexed(uint32_t indices, uint32_t instances = 1, uint32_t first_index = 0, int32_t vertex_offset = 0, uint32_t first_instance = 0) const {
+  void draw_indexed(uint32_t indices, uint32_t instances = 1, uint32_t first_index = 0, int32_t vertex_offset = 0,
+                    uint32_t first_instance = 0) const {
     vk.CmdDrawIndexed(commands, indices, instances, first_index, vertex_offset, first_instance);
   }
 };

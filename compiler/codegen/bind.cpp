@@ -14,16 +14,26 @@ namespace {
 
 BlendFactor convert(dsl::BlendFactor factor) {
   switch (factor) {
-    case dsl::BlendFactor::zero: return BlendFactor::zero;
-    case dsl::BlendFactor::one: return BlendFactor::one;
-    case dsl::BlendFactor::src_alpha: return BlendFactor::src_alpha;
-    case dsl::BlendFactor::one_minus_src_alpha: return BlendFactor::one_minus_src_alpha;
-    case dsl::BlendFactor::dst_alpha: return BlendFactor::dst_alpha;
-    case dsl::BlendFactor::one_minus_dst_alpha: return BlendFactor::one_minus_dst_alpha;
-    case dsl::BlendFactor::src_color: return BlendFactor::src_color;
-    case dsl::BlendFactor::one_minus_src_color: return BlendFactor::one_minus_src_color;
-    case dsl::BlendFactor::dst_color: return BlendFactor::dst_color;
-    case dsl::BlendFactor::one_minus_dst_color: return BlendFactor::one_minus_dst_color;
+    case dsl::BlendFactor::zero:
+      return BlendFactor::zero;
+    case dsl::BlendFactor::one:
+      return BlendFactor::one;
+    case dsl::BlendFactor::src_alpha:
+      return BlendFactor::src_alpha;
+    case dsl::BlendFactor::one_minus_src_alpha:
+      return BlendFactor::one_minus_src_alpha;
+    case dsl::BlendFactor::dst_alpha:
+      return BlendFactor::dst_alpha;
+    case dsl::BlendFactor::one_minus_dst_alpha:
+      return BlendFactor::one_minus_dst_alpha;
+    case dsl::BlendFactor::src_color:
+      return BlendFactor::src_color;
+    case dsl::BlendFactor::one_minus_src_color:
+      return BlendFactor::one_minus_src_color;
+    case dsl::BlendFactor::dst_color:
+      return BlendFactor::dst_color;
+    case dsl::BlendFactor::one_minus_dst_color:
+      return BlendFactor::one_minus_dst_color;
   }
   return BlendFactor::zero;
 }
@@ -35,10 +45,14 @@ ColorBlend convert(const dsl::Blend& blend) {
 
 uint8_t convert(dsl::Topology topology) {
   switch (topology) {
-    case dsl::Topology::points: return 0;
-    case dsl::Topology::lines: return 1;
-    case dsl::Topology::triangles: return 3;
-    case dsl::Topology::triangle_strip: return 4;
+    case dsl::Topology::points:
+      return 0;
+    case dsl::Topology::lines:
+      return 1;
+    case dsl::Topology::triangles:
+      return 3;
+    case dsl::Topology::triangle_strip:
+      return 4;
   }
   return 3;
 }
@@ -137,12 +151,18 @@ Layout layout_of(const Binder& b, const Pass& pass, const Binding& binding) {
 
 DescriptorType descriptor_type(BindingKind kind) {
   switch (kind) {
-    case BindingKind::combined_sampler: return DescriptorType::combined_image_sampler;
-    case BindingKind::texture: return DescriptorType::sampled_image;
-    case BindingKind::storage_image: return DescriptorType::storage_image;
-    case BindingKind::storage_buffer: return DescriptorType::storage_buffer;
-    case BindingKind::uniform_buffer: return DescriptorType::uniform_buffer;
-    case BindingKind::params: return DescriptorType::uniform_buffer_dynamic;
+    case BindingKind::combined_sampler:
+      return DescriptorType::combined_image_sampler;
+    case BindingKind::texture:
+      return DescriptorType::sampled_image;
+    case BindingKind::storage_image:
+      return DescriptorType::storage_image;
+    case BindingKind::storage_buffer:
+      return DescriptorType::storage_buffer;
+    case BindingKind::uniform_buffer:
+      return DescriptorType::uniform_buffer;
+    case BindingKind::params:
+      return DescriptorType::uniform_buffer_dynamic;
   }
   return DescriptorType::sampled_image;
 }

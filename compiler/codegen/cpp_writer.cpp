@@ -14,12 +14,14 @@ constexpr size_t kColumns = 150;
 
 const std::set<std::string_view>& keywords() {
   static const std::set<std::string_view> words = {
-      "alignas", "alignof", "and", "asm", "auto", "bitand", "bitor", "bool", "break", "case", "catch", "char", "class", "compl", "concept", "const",
-      "consteval", "constexpr", "constinit", "continue", "co_await", "co_return", "co_yield", "decltype", "default", "delete", "do", "double", "else",
-      "enum", "explicit", "export", "extern", "false", "float", "for", "friend", "goto", "if", "inline", "int", "long", "mutable", "namespace", "new",
-      "noexcept", "not", "nullptr", "operator", "or", "private", "protected", "public", "register", "requires", "return", "short", "signed", "sizeof",
-      "static", "struct", "switch", "template", "this", "throw", "true", "try", "typedef", "typeid", "typename", "union", "unsigned", "using",
-      "virtual", "void", "volatile", "while", "xor", "linux", "unix"};
+      "alignas",  "alignof",   "and",      "asm",       "auto",     "bitand",   "bitor",     "bool",      "break",     "case",
+      "catch",    "char",      "class",    "compl",     "concept",  "const",    "consteval", "constexpr", "constinit", "continue",
+      "co_await", "co_return", "co_yield", "decltype",  "default",  "delete",   "do",        "double",    "else",      "enum",
+      "explicit", "export",    "extern",   "false",     "float",    "for",      "friend",    "goto",      "if",        "inline",
+      "int",      "long",      "mutable",  "namespace", "new",      "noexcept", "not",       "nullptr",   "operator",  "or",
+      "private",  "protected", "public",   "register",  "requires", "return",   "short",     "signed",    "sizeof",    "static",
+      "struct",   "switch",    "template", "this",      "throw",    "true",     "try",       "typedef",   "typeid",    "typename",
+      "union",    "unsigned",  "using",    "virtual",   "void",     "volatile", "while",     "xor",       "linux",     "unix"};
   return words;
 }
 
@@ -30,8 +32,10 @@ bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; 
 std::string cpp_name(std::string_view name) {
   std::string result;
   for (const char c : name) {
-    if (is_word(c)) result += c;
-    else if (!result.empty() && result.back() != '_') result += '_';
+    if (is_word(c))
+      result += c;
+    else if (!result.empty() && result.back() != '_')
+      result += '_';
   }
   while (!result.empty() && result.back() == '_') result.pop_back();
   if (result.empty() || std::isdigit(static_cast<unsigned char>(result[0]))) result = "n" + result;
@@ -47,7 +51,8 @@ std::string cpp_type_name(std::string_view name) {
       upper = true;
       continue;
     }
-    const bool digits_meet = upper && std::isdigit(static_cast<unsigned char>(c)) && !result.empty() && std::isdigit(static_cast<unsigned char>(result.back()));
+    const bool digits_meet =
+        upper && std::isdigit(static_cast<unsigned char>(c)) && !result.empty() && std::isdigit(static_cast<unsigned char>(result.back()));
     if (digits_meet) result += '_';
     result += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(c))) : c;
     upper = false;
@@ -59,8 +64,10 @@ std::string cpp_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n') result += "\\n";
-    else result += c;
+    if (c == '\n')
+      result += "\\n";
+    else
+      result += c;
   }
   return result + "\"";
 }
@@ -87,9 +94,7 @@ Row& Row::field(std::string_view name, std::string value) {
   fields_.push_back("." + std::string(name) + " = " + std::move(value));
   return *this;
 }
-Row& Row::number(std::string_view name, uint64_t value, uint64_t omitted) {
-  return value == omitted ? *this : field(name, std::to_string(value));
-}
+Row& Row::number(std::string_view name, uint64_t value, uint64_t omitted) { return value == omitted ? *this : field(name, std::to_string(value)); }
 Row& Row::flag(std::string_view name, bool value) { return value ? field(name, "true") : *this; }
 Row& Row::string(std::string_view name, std::string_view value) { return value.empty() ? *this : field(name, cpp_string(value)); }
 Row& Row::nested(std::string_view name, const Row& row) { return row.empty() ? *this : field(name, row.inline_text()); }

@@ -23,7 +23,8 @@ std::string size_initial(const ApiExtent& extent) {
 void extents(CppWriter& out, const FrameApi& api) {
   out.line("// Chosen at creation and by resize.");
   out.line("struct Extents {");
-  for (const ApiExtent& extent : api.extents) out.line("  rg::Size" + std::to_string(extent.axes) + " " + extent.name + " = " + size_initial(extent) + ";");
+  for (const ApiExtent& extent : api.extents)
+    out.line("  rg::Size" + std::to_string(extent.axes) + " " + extent.name + " = " + size_initial(extent) + ";");
   out.line("};").line();
 }
 
@@ -55,7 +56,8 @@ void pass_struct(CppWriter& out, const ApiPass& pass) {
   const char* base = pass.raster ? "rg::RasterRecording" : pass.compute ? "rg::ComputeRecording" : "rg::Recording";
   out.line("struct " + pass.type + " : " + base + " {" + behind(pass.comment));
   if (!pass.push_type.empty())
-    out.line("  void push(const " + pass.push_type + "& per_draw) const { rg::push_constants(*this, " + shader_stages_text(pass.push_stages) + ", per_draw); }");
+    out.line("  void push(const " + pass.push_type + "& per_draw) const { rg::push_constants(*this, " + shader_stages_text(pass.push_stages) +
+             ", per_draw); }");
   out.line("};");
 }
 
@@ -113,7 +115,8 @@ void execute(CppWriter& out, const FrameApi& api) {
   out.line("  template <" + api.class_name + "Recorder R>");
   out.call("  rg::Status execute", parameters(api, {"R& recorder"}), " {");
   out.line("    static constexpr rg::RecordFunction callbacks[] = {");
-  for (const ApiPass& pass : api.passes) out.line("        record<R, " + pass.type + ", [](R& r, " + pass.type + "& pass) { r." + pass.method + "(pass); }>,");
+  for (const ApiPass& pass : api.passes)
+    out.line("        record<R, " + pass.type + ", [](R& r, " + pass.type + "& pass) { r." + pass.method + "(pass); }>,");
   out.line("    };");
   out.call("    return submit", argument_names(api, {"callbacks", "&recorder"}), ";");
   out.line("  }");
@@ -138,7 +141,8 @@ void frame_class(CppWriter& out, const FrameApi& api) {
   execute(out, api);
   out.line();
   for (const ApiReadback& readback : api.readbacks) {
-    out.line("  // `" + readback.name + "` of the last finished frame; waits for it. Valid until the next execute." + (readback.comment.empty() ? "" : "  " + readback.comment));
+    out.line("  // `" + readback.name + "` of the last finished frame; waits for it. Valid until the next execute." +
+             (readback.comment.empty() ? "" : "  " + readback.comment));
     out.line("  rg::Result<std::span<const " + readback.element + ">> " + readback.name + "();");
   }
   if (!api.readbacks.empty()) out.line();
@@ -189,7 +193,8 @@ void import_rows(CppWriter& out, const FrameApi& api) {
   out.line("  inputs.imports = import_rows;");
 }
 
-void rows(CppWriter& out, const std::string& type, const char* from, const char* name, const std::vector<ApiMember>& members, const char* before, const char* after) {
+void rows(CppWriter& out, const std::string& type, const char* from, const char* name, const std::vector<ApiMember>& members, const char* before,
+          const char* after) {
   out.line("  const " + type + " " + name + "_rows[] = {");
   for (const ApiMember& member : members) out.line(std::string("      ") + before + from + "." + member.name + after + ",");
   out.line("  };");

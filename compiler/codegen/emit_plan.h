@@ -13,7 +13,7 @@ struct PlanText {
   const dsl::SourceFiles& files;
   const PlanNames& names;
   std::vector<dsl::Span> passes, resources;  // where each row of the plan is declared
-  std::vector<std::string> shader_symbols;  // of Plan::shaders, qualified
+  std::vector<std::string> shader_symbols;   // of Plan::shaders, qualified
 };
 // Tables in the order of plan.h, then `constexpr rg::Plan kPlan`; to stand in an anonymous namespace with rg's names in sight.
 std::string emit_plan(const Plan& plan, const PlanText& text);

@@ -122,6 +122,7 @@ FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const F
   FrameApi api;
   api.scope = cpp_name(program.module);
   if (program.graphs.size() > 1) api.scope += "::" + cpp_name(graph.name) + "_graph";
+  if (frame.plan.variant_count > 1) api.scope += "::" + cpp_name(frame.plan.variant_name);
   api.class_name = cpp_type_name(graph.name);
   api.names = plan_names(frame.plan.view());
   for (const Extent& extent : frame.plan.extents)

@@ -18,7 +18,7 @@ struct ApiExtent {
   uint32_t axes = 2;
   int64_t initial[3] = {1, 1, 1};
 };
-struct ApiPass {  // recorded by the host; by host slot
+struct ApiPass {                                 // recorded by the host; by host slot
   std::string method, type, push_type, comment;  // push_type empty: no push constants
   uint32_t push_stages = 0;
   bool raster = false, compute = false;
@@ -27,7 +27,7 @@ struct ApiReadback {
   std::string name, resource, element, comment;
 };
 struct FrameApi {
-  std::string scope;     // namespace, "frame" or "frame::shadows"
+  std::string scope;       // namespace, "frame" or "frame::shadows"
   std::string class_name;  // "Frame"
   PlanNames names;
   std::vector<ApiExtent> extents;

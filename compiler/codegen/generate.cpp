@@ -49,7 +49,8 @@ std::string words_text(std::span<const uint32_t> words) {
 
 std::string shader_text(const std::string& scope, const ShaderModule& shader, const std::string& symbol, const std::string& heading) {
   return fmt::format(
-      "{}// {}: {} words of SPIR-V 1.5\n#pragma once\n\n#include <cstdint>\n\nnamespace {}::spirv {{\n\ninline constexpr uint32_t {}[] = {{\n{}}};\n\n"
+      "{}// {}: {} words of SPIR-V 1.5\n#pragma once\n\n#include <cstdint>\n\nnamespace {}::spirv {{\n\ninline constexpr uint32_t {}[] = "
+      "{{\n{}}};\n\n"
       "}}  // namespace {}::spirv\n",
       heading, shader.name, shader.words.size(), scope, symbol, words_text(shader.words), scope);
 }
@@ -59,10 +60,9 @@ class ShaderWriter {
  public:
   ShaderWriter(std::string scope, std::string heading) : scope_(std::move(scope)), heading_(std::move(heading)) {}
 
-  ShaderFiles add(const std::string& graph, const std::vector<FramePlan>& plans) {
+  ShaderFiles add(const std::string& graph, const PlanData& plan) {
     ShaderFiles known;
-    for (const FramePlan& plan : plans)
-      for (const ShaderModule& shader : plan.plan.shaders) known.emplace(shader.name, add(graph, shader));
+    for (const ShaderModule& shader : plan.shaders) known.emplace(shader.name, add(graph, shader));
     return known;
   }
   std::vector<GeneratedFile> files;
@@ -82,7 +82,7 @@ class ShaderWriter {
 
 // ---- header and source
 
-std::string graph_scope(const FrameApi& api, const std::string& module) { return api.scope == module ? "" : api.scope.substr(module.size() + 2); }
+std::string inner_scope(const FrameApi& api, const std::string& module) { return api.scope == module ? "" : api.scope.substr(module.size() + 2); }
 
 std::string in_namespace(const std::string& scope, const std::string& text) {
   return scope.empty() ? text : fmt::format("namespace {} {{\n\n{}\n}}  // namespace {}\n", scope, text, scope);
@@ -101,12 +101,34 @@ std::string constants_text(const dsl::Program& program) {
   return text.empty() ? "" : text + "\n";
 }
 
-std::string header_text(const dsl::Program& program, const std::vector<GraphOutput>& graphs, const std::vector<FrameApi>& apis,
-                        const dsl::SourceFiles& files, const std::string& heading) {
+// One plan of one graph: its API and the source file that holds its tables.
+struct PlanOutput {
+  dsl::GraphId graph;
+  const FramePlan* frame = nullptr;
+  FrameApi api;
+  std::string path;
+};
+
+std::vector<PlanOutput> collect_outputs(const dsl::Program& program, const std::vector<GraphOutput>& graphs, const dsl::SourceFiles& files) {
+  std::vector<PlanOutput> outputs;
+  for (const GraphOutput& graph : graphs) {
+    RG_CHECK(graph.plans != nullptr && !graph.plans->empty(), "a graph without a plan cannot be generated");
+    for (const FramePlan& frame : *graph.plans) {
+      PlanOutput output{graph.graph, &frame, collect_api(program, graph.graph, frame, files), ""};
+      output.path = cpp_name(output.api.scope) + "_plan.cpp";
+      outputs.push_back(std::move(output));
+    }
+  }
+  return outputs;
+}
+
+std::string header_text(const dsl::Program& program, const std::vector<PlanOutput>& outputs, const dsl::SourceFiles& files,
+                        const std::string& heading) {
   const std::string scope = cpp_name(program.module);
-  std::string text = heading + "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <utility>\n\n#include \"runtime/typed.h\"\n\n";
+  std::string text =
+      heading + "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <utility>\n\n#include \"runtime/typed.h\"\n\n";
   text += "namespace " + scope + " {\n\n" + constants_text(program) + emit_structs(program, files);
-  for (size_t i = 0; i < graphs.size(); ++i) text += in_namespace(graph_scope(apis[i], scope), emit_declarations(apis[i], graphs[i].plans->front()));
+  for (const PlanOutput& output : outputs) text += in_namespace(inner_scope(output.api, scope), emit_declarations(output.api, *output.frame));
   return text + "\n}  // namespace " + scope + "\n";
 }
 
@@ -116,24 +138,24 @@ std::vector<std::string> shader_symbols(const PlanData& plan, const ShaderFiles&
   return symbols;
 }
 
-PlanText plan_text(const dsl::Program& program, dsl::GraphId graph_id, const FramePlan& frame, const FrameApi& api, const ShaderFiles& shaders,
-                   const dsl::SourceFiles& files) {
-  const dsl::Graph& graph = program.graphs[graph_id];
-  PlanText text{files, api.names, {}, {}, shader_symbols(frame.plan, shaders, cpp_name(program.module))};
-  for (const uint32_t pass : frame.plan.program_pass) text.passes.push_back(pass == kNone ? dsl::Span{} : graph.passes.rows[pass].span);
-  for (const uint32_t resource : frame.plan.program_resource) text.resources.push_back(graph.resources.rows[resource].span);
+PlanText plan_text(const dsl::Program& program, const PlanOutput& output, const ShaderFiles& shaders, const dsl::SourceFiles& files) {
+  const dsl::Graph& graph = program.graphs[output.graph];
+  const PlanData& plan = output.frame->plan;
+  PlanText text{files, output.api.names, {}, {}, shader_symbols(plan, shaders, cpp_name(program.module))};
+  for (const uint32_t pass : plan.program_pass) text.passes.push_back(pass == kNone ? dsl::Span{} : graph.passes.rows[pass].span);
+  for (const uint32_t resource : plan.program_resource) text.resources.push_back(graph.resources.rows[resource].span);
   return text;
 }
 
-std::string source_text(const dsl::Program& program, dsl::GraphId graph, const FramePlan& frame, const FrameApi& api, const ShaderFiles& shaders, const dsl::SourceFiles& files,
+std::string source_text(const dsl::Program& program, const PlanOutput& output, const ShaderFiles& shaders, const dsl::SourceFiles& files,
                         const std::string& heading) {
-  const std::string module = cpp_name(program.module);
-  std::string text = heading + "#include \"" + module + ".h\"\n\n#include <array>\n#include <string_view>\n\n";
-  for (const ShaderModule& shader : frame.plan.shaders) text += "#include \"" + shaders.at(shader.name).path + "\"\n";
+  const std::string& scope = output.api.scope;
+  std::string text = heading + "#include \"" + cpp_name(program.module) + ".h\"\n\n#include <array>\n#include <string_view>\n\n";
+  for (const ShaderModule& shader : output.frame->plan.shaders) text += "#include \"" + shaders.at(shader.name).path + "\"\n";
   text += "\nnamespace {\n\nusing namespace rg;\n";
-  text += "namespace pass = " + api.scope + "::pass;\nnamespace resource = " + api.scope + "::resource;\n\n";
-  text += emit_plan(frame.plan.view(), plan_text(program, graph, frame, api, shaders, files));
-  text += "\n}  // namespace\n\nnamespace " + api.scope + " {\n\n" + emit_definitions(api) + "\n}  // namespace " + api.scope + "\n";
+  text += "namespace pass = " + scope + "::pass;\nnamespace resource = " + scope + "::resource;\n\n";
+  text += emit_plan(output.frame->plan.view(), plan_text(program, output, shaders, files));
+  text += "\n}  // namespace\n\nnamespace " + scope + " {\n\n" + emit_definitions(output.api) + "\n}  // namespace " + scope + "\n";
   return text;
 }
 
@@ -159,29 +181,20 @@ std::string cmake_text(const std::string& root, const std::string& command, cons
       root, command, list);
 }
 
-std::string source_path(const dsl::Program& program, dsl::GraphId graph) {
-  const std::string module = cpp_name(program.module);
-  return program.graphs.size() == 1 ? module + "_plan.cpp" : module + "_" + cpp_name(program.graphs[graph].name) + "_plan.cpp";
-}
-
 }  // namespace
 
 std::vector<GeneratedFile> generate(const dsl::Program& program, const std::vector<GraphOutput>& graphs, const dsl::SourceFiles& files,
                                     const std::string& command) {
   const std::string heading = banner(files, command), module = cpp_name(program.module);
-  std::vector<FrameApi> apis;
-  for (const GraphOutput& graph : graphs) {
-    RG_CHECK(graph.plans != nullptr && !graph.plans->empty(), "a graph without a plan cannot be generated");
-    apis.push_back(collect_api(program, graph.graph, graph.plans->front(), files));
-  }
+  const std::vector<PlanOutput> outputs = collect_outputs(program, graphs, files);
   std::vector<GeneratedFile> generated;
-  generated.push_back({module + ".h", header_text(program, graphs, apis, files, heading)});
+  generated.push_back({module + ".h", header_text(program, outputs, files, heading)});
   ShaderWriter shaders(module, heading);
   std::vector<std::string> sources;
-  for (size_t i = 0; i < graphs.size(); ++i) {
-    sources.push_back(source_path(program, graphs[i].graph));
-    const ShaderFiles used = shaders.add(program.graphs[graphs[i].graph].name, *graphs[i].plans);
-    generated.push_back({sources.back(), source_text(program, graphs[i].graph, graphs[i].plans->front(), apis[i], used, files, heading)});
+  for (const PlanOutput& output : outputs) {
+    const ShaderFiles used = shaders.add(program.graphs[output.graph].name, output.frame->plan);
+    sources.push_back(output.path);
+    generated.push_back({output.path, source_text(program, output, used, files, heading)});
   }
   generated.push_back({"README.md", readme_text(root_name(files), command, module)});
   generated.push_back({"CMakeLists.txt", cmake_text(root_name(files), command, sources)});

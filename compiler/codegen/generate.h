@@ -25,7 +25,7 @@ struct GraphOutput {
 // `command` is what the banner tells the reader to run, "./x gen". The same input gives the same bytes; nothing holds a time or a machine's path.
 //
 //   <module>.h           structs, Extents, Imports, Params, the recorder concept, class Frame; see docs/generated.md
-//   <module>_plan.cpp    the plan as constexpr tables, and the few functions of the API that are not inline
+//   <module>_plan.cpp    the plan as constexpr tables, and the few functions of the API that are not inline; one file a plan
 //   shaders/*.spv.h      SPIR-V words
 //   README.md, CMakeLists.txt (library rgc_frame)
 std::vector<GeneratedFile> generate(const dsl::Program& program, const std::vector<GraphOutput>& graphs, const dsl::SourceFiles& files,

@@ -11,24 +11,57 @@ namespace {
 template <class Bits>
 using NamedBits = std::vector<std::pair<Bits, const char*>>;
 
-#define RG_BIT(name) {stage::name, "stage::" #name}
+#define RG_BIT(name) \
+  { stage::name, "stage::" #name }
 const NamedBits<Stages>& stage_bits() {
-  static const NamedBits<Stages> bits = {
-      RG_BIT(draw_indirect), RG_BIT(index_input), RG_BIT(vertex_attribute_input), RG_BIT(vertex_shader), RG_BIT(tess_control_shader),
-      RG_BIT(tess_eval_shader), RG_BIT(geometry_shader), RG_BIT(early_fragment_tests), RG_BIT(fragment_shader), RG_BIT(late_fragment_tests),
-      RG_BIT(color_attachment_output), RG_BIT(compute_shader), RG_BIT(all_transfer), RG_BIT(copy), RG_BIT(resolve), RG_BIT(blit), RG_BIT(clear),
-      RG_BIT(bottom_of_pipe), RG_BIT(host), RG_BIT(all_graphics), RG_BIT(all_commands)};
+  static const NamedBits<Stages> bits = {RG_BIT(draw_indirect),
+                                         RG_BIT(index_input),
+                                         RG_BIT(vertex_attribute_input),
+                                         RG_BIT(vertex_shader),
+                                         RG_BIT(tess_control_shader),
+                                         RG_BIT(tess_eval_shader),
+                                         RG_BIT(geometry_shader),
+                                         RG_BIT(early_fragment_tests),
+                                         RG_BIT(fragment_shader),
+                                         RG_BIT(late_fragment_tests),
+                                         RG_BIT(color_attachment_output),
+                                         RG_BIT(compute_shader),
+                                         RG_BIT(all_transfer),
+                                         RG_BIT(copy),
+                                         RG_BIT(resolve),
+                                         RG_BIT(blit),
+                                         RG_BIT(clear),
+                                         RG_BIT(bottom_of_pipe),
+                                         RG_BIT(host),
+                                         RG_BIT(all_graphics),
+                                         RG_BIT(all_commands)};
   return bits;
 }
 #undef RG_BIT
 
-#define RG_BIT(name) {access::name, "access::" #name}
+#define RG_BIT(name) \
+  { access::name, "access::" #name }
 const NamedBits<Accesses>& access_bits() {
-  static const NamedBits<Accesses> bits = {
-      RG_BIT(indirect_command_read), RG_BIT(index_read), RG_BIT(vertex_attribute_read), RG_BIT(uniform_read), RG_BIT(input_attachment_read),
-      RG_BIT(shader_read), RG_BIT(shader_write), RG_BIT(shader_sampled_read), RG_BIT(shader_storage_read), RG_BIT(shader_storage_write),
-      RG_BIT(color_attachment_read), RG_BIT(color_attachment_write), RG_BIT(depth_stencil_attachment_read), RG_BIT(depth_stencil_attachment_write),
-      RG_BIT(transfer_read), RG_BIT(transfer_write), RG_BIT(host_read), RG_BIT(host_write), RG_BIT(memory_read), RG_BIT(memory_write)};
+  static const NamedBits<Accesses> bits = {RG_BIT(indirect_command_read),
+                                           RG_BIT(index_read),
+                                           RG_BIT(vertex_attribute_read),
+                                           RG_BIT(uniform_read),
+                                           RG_BIT(input_attachment_read),
+                                           RG_BIT(shader_read),
+                                           RG_BIT(shader_write),
+                                           RG_BIT(shader_sampled_read),
+                                           RG_BIT(shader_storage_read),
+                                           RG_BIT(shader_storage_write),
+                                           RG_BIT(color_attachment_read),
+                                           RG_BIT(color_attachment_write),
+                                           RG_BIT(depth_stencil_attachment_read),
+                                           RG_BIT(depth_stencil_attachment_write),
+                                           RG_BIT(transfer_read),
+                                           RG_BIT(transfer_write),
+                                           RG_BIT(host_read),
+                                           RG_BIT(host_write),
+                                           RG_BIT(memory_read),
+                                           RG_BIT(memory_write)};
   return bits;
 }
 #undef RG_BIT
@@ -56,29 +89,47 @@ std::string aspects_text(uint32_t aspects) {
 }
 
 std::string shader_stages_text(uint32_t stages) {
-  static const NamedBits<uint32_t> names = {{1, "VK_SHADER_STAGE_VERTEX_BIT"},   {2, "VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT"},
-                                            {4, "VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT"}, {8, "VK_SHADER_STAGE_GEOMETRY_BIT"},
-                                            {16, "VK_SHADER_STAGE_FRAGMENT_BIT"}, {32, "VK_SHADER_STAGE_COMPUTE_BIT"}};
+  static const NamedBits<uint32_t> names = {{1, "VK_SHADER_STAGE_VERTEX_BIT"},
+                                            {2, "VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT"},
+                                            {4, "VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT"},
+                                            {8, "VK_SHADER_STAGE_GEOMETRY_BIT"},
+                                            {16, "VK_SHADER_STAGE_FRAGMENT_BIT"},
+                                            {32, "VK_SHADER_STAGE_COMPUTE_BIT"}};
   return bits_text(stages, names);
 }
 
 std::string layout_text(Layout layout) {
   switch (layout) {
-    case Layout::undefined: return "Layout::undefined";
-    case Layout::general: return "Layout::general";
-    case Layout::color_attachment: return "Layout::color_attachment";
-    case Layout::depth_stencil_attachment: return "Layout::depth_stencil_attachment";
-    case Layout::depth_stencil_read_only: return "Layout::depth_stencil_read_only";
-    case Layout::shader_read_only: return "Layout::shader_read_only";
-    case Layout::transfer_src: return "Layout::transfer_src";
-    case Layout::transfer_dst: return "Layout::transfer_dst";
-    case Layout::depth_read_only_stencil_attachment: return "Layout::depth_read_only_stencil_attachment";
-    case Layout::depth_attachment_stencil_read_only: return "Layout::depth_attachment_stencil_read_only";
-    case Layout::depth_attachment: return "Layout::depth_attachment";
-    case Layout::depth_read_only: return "Layout::depth_read_only";
-    case Layout::stencil_attachment: return "Layout::stencil_attachment";
-    case Layout::stencil_read_only: return "Layout::stencil_read_only";
-    case Layout::present_src: return "Layout::present_src";
+    case Layout::undefined:
+      return "Layout::undefined";
+    case Layout::general:
+      return "Layout::general";
+    case Layout::color_attachment:
+      return "Layout::color_attachment";
+    case Layout::depth_stencil_attachment:
+      return "Layout::depth_stencil_attachment";
+    case Layout::depth_stencil_read_only:
+      return "Layout::depth_stencil_read_only";
+    case Layout::shader_read_only:
+      return "Layout::shader_read_only";
+    case Layout::transfer_src:
+      return "Layout::transfer_src";
+    case Layout::transfer_dst:
+      return "Layout::transfer_dst";
+    case Layout::depth_read_only_stencil_attachment:
+      return "Layout::depth_read_only_stencil_attachment";
+    case Layout::depth_attachment_stencil_read_only:
+      return "Layout::depth_attachment_stencil_read_only";
+    case Layout::depth_attachment:
+      return "Layout::depth_attachment";
+    case Layout::depth_read_only:
+      return "Layout::depth_read_only";
+    case Layout::stencil_attachment:
+      return "Layout::stencil_attachment";
+    case Layout::stencil_read_only:
+      return "Layout::stencil_read_only";
+    case Layout::present_src:
+      return "Layout::present_src";
   }
   RG_CHECK(false, "a layout of the plan has no name");
   return "";

@@ -10,10 +10,10 @@
 
 namespace rg::compiler {
 
-std::string stages_text(Stages stages);      // "stage::copy | stage::compute_shader"
+std::string stages_text(Stages stages);  // "stage::copy | stage::compute_shader"
 std::string accesses_text(Accesses accesses);
-std::string layout_text(Layout layout);      // "Layout::general"
-std::string aspects_text(uint32_t aspects);  // "aspect_depth | aspect_stencil"
+std::string layout_text(Layout layout);           // "Layout::general"
+std::string aspects_text(uint32_t aspects);       // "aspect_depth | aspect_stencil"
 std::string shader_stages_text(uint32_t stages);  // "VK_SHADER_STAGE_VERTEX_BIT | ..."
 
 // What passes and resources are called in generated code; distinct, in plan order.

@@ -47,7 +47,8 @@ void report_contradiction(const Checker& c, const StageOutput& stage, const dsl:
 void check_mode(const Checker& c, const StageOutput& stage, const InterfaceBinding& binding, const dsl::Access& access) {
   const Use use = use_in(stage, binding);
   if (access.role != dsl::Role::storage) return;
-  if (access.mode == dsl::Mode::read && (use.writes || use.atomics)) report_contradiction(c, stage, access, DiagnosticKind::WriteThroughRead, "written");
+  if (access.mode == dsl::Mode::read && (use.writes || use.atomics))
+    report_contradiction(c, stage, access, DiagnosticKind::WriteThroughRead, "written");
   if (access.mode == dsl::Mode::write && (use.reads || use.atomics)) report_contradiction(c, stage, access, DiagnosticKind::ReadOfWriteOnly, "read");
   if (access.mode == dsl::Mode::atomic && (use.writes || use.reads))
     report_contradiction(c, stage, access, DiagnosticKind::PlainAccessOfAtomic, use.writes ? "written" : "read");
@@ -80,14 +81,16 @@ void check_declared_stages(const Checker& c, const StageOutput& stage, const Int
 
 bool is_own_descriptor(const ReflectedBinding& found, const std::vector<InterfaceBinding>& bindings, const std::string& engine_set) {
   if (found.set != 1) return engine_set.find(found.name) == std::string::npos;
-  return std::none_of(bindings.begin(), bindings.end(), [&](const InterfaceBinding& b) { return b.binding == found.binding && b.name == found.name; });
+  return std::none_of(bindings.begin(), bindings.end(),
+                      [&](const InterfaceBinding& b) { return b.binding == found.binding && b.name == found.name; });
 }
 
 void check_own_descriptors(const Checker& c, const StageOutput& stage, const std::vector<InterfaceBinding>& bindings) {
   const dsl::EngineSet* set = engine_set_of(c.context.program, c.context.pass);
   for (const ReflectedBinding& found : stage.reflection.bindings) {
     if (!is_own_descriptor(found, bindings, set != nullptr ? set->glsl : "")) continue;
-    c.diagnostics.report(DiagnosticKind::OwnDescriptor, c.places.word(stage.path, found.name), {found.name, std::to_string(found.set), c.context.pass.name})
+    c.diagnostics
+        .report(DiagnosticKind::OwnDescriptor, c.places.word(stage.path, found.name), {found.name, std::to_string(found.set), c.context.pass.name})
         .note(DiagnosticKind::DeclareAccess, c.context.pass.span, {"read RESOURCE as sampled"});
   }
 }
@@ -127,12 +130,18 @@ void check_layouts(const Checker& c, const StageOutput& stage) {
 
 std::string stage_name(dsl::Stage stage) {
   switch (stage) {
-    case dsl::stage_vertex: return "vertex";
-    case dsl::stage_tess_control: return "tess_control";
-    case dsl::stage_tess_eval: return "tess_eval";
-    case dsl::stage_geometry: return "geometry";
-    case dsl::stage_fragment: return "fragment";
-    default: return "compute";
+    case dsl::stage_vertex:
+      return "vertex";
+    case dsl::stage_tess_control:
+      return "tess_control";
+    case dsl::stage_tess_eval:
+      return "tess_eval";
+    case dsl::stage_geometry:
+      return "geometry";
+    case dsl::stage_fragment:
+      return "fragment";
+    default:
+      return "compute";
   }
 }
 

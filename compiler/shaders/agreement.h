@@ -15,9 +15,9 @@ namespace rg::compiler {
 struct StageOutput {
   dsl::Stage stage = dsl::stage_compute;
   std::string path;
-  dsl::Span span;          // of the `shader` statement
-  Reflection reflection;   // of the module as written
-  ModuleUses uses;         // of the optimised module
+  dsl::Span span;         // of the `shader` statement
+  Reflection reflection;  // of the module as written
+  ModuleUses uses;        // of the optimised module
 };
 
 // Adds shader texts to the source files when a diagnostic needs a place in them.

@@ -188,8 +188,10 @@ PassShaders pass_shaders(const PassContext& context, const std::vector<StageOutp
   result.params_stages.assign(pass.params.size(), 0);
   for (const InterfaceBinding& binding : pass_bindings(context.program, context.graph, pass)) {
     const uint32_t used = pass.shaders.empty() ? host_stages(pass, binding) : used_stages(stages, binding);
-    if (binding.access != dsl::kAll) result.access_stages[binding.access] = used;
-    else result.params_stages[binding.params] = used;
+    if (binding.access != dsl::kAll)
+      result.access_stages[binding.access] = used;
+    else
+      result.params_stages[binding.params] = used;
   }
   result.push_stages = push_stages(pass, stages);
   return result;

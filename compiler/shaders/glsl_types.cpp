@@ -9,20 +9,28 @@ namespace {
 
 const char* scalar_name(dsl::Scalar scalar) {
   switch (scalar) {
-    case dsl::Scalar::f32: return "float";
-    case dsl::Scalar::i32: return "int";
-    case dsl::Scalar::u32: return "uint";
-    case dsl::Scalar::boolean: return "bool";
+    case dsl::Scalar::f32:
+      return "float";
+    case dsl::Scalar::i32:
+      return "int";
+    case dsl::Scalar::u32:
+      return "uint";
+    case dsl::Scalar::boolean:
+      return "bool";
   }
   return "float";
 }
 
 const char* vector_prefix(dsl::Scalar scalar) {
   switch (scalar) {
-    case dsl::Scalar::f32: return "";
-    case dsl::Scalar::i32: return "i";
-    case dsl::Scalar::u32: return "u";
-    case dsl::Scalar::boolean: return "b";
+    case dsl::Scalar::f32:
+      return "";
+    case dsl::Scalar::i32:
+      return "i";
+    case dsl::Scalar::u32:
+      return "u";
+    case dsl::Scalar::boolean:
+      return "b";
   }
   return "";
 }
@@ -48,14 +56,29 @@ std::string glsl_variable(const dsl::Program& program, const dsl::Type& type, co
 std::string glsl_image_format(dsl::Format format) {
   using dsl::Format;
   static const std::map<Format, const char*> names = {
-      {Format::r8, "r8"},           {Format::r8ui, "r8ui"},         {Format::rg8, "rg8"},
-      {Format::rgba8, "rgba8"},     {Format::rgba8_snorm, "rgba8_snorm"}, {Format::rgba8ui, "rgba8ui"},
-      {Format::rgb10a2, "rgb10_a2"}, {Format::r16, "r16"},          {Format::r16ui, "r16ui"},
-      {Format::r16f, "r16f"},       {Format::rg16, "rg16"},         {Format::rg16_snorm, "rg16_snorm"},
-      {Format::rg16f, "rg16f"},     {Format::rgba16, "rgba16"},     {Format::rgba16f, "rgba16f"},
-      {Format::r32ui, "r32ui"},     {Format::r32i, "r32i"},         {Format::r32f, "r32f"},
-      {Format::rg32ui, "rg32ui"},   {Format::rg32f, "rg32f"},       {Format::rgba32ui, "rgba32ui"},
-      {Format::rgba32f, "rgba32f"}, {Format::r11g11b10f, "r11f_g11f_b10f"},
+      {Format::r8, "r8"},
+      {Format::r8ui, "r8ui"},
+      {Format::rg8, "rg8"},
+      {Format::rgba8, "rgba8"},
+      {Format::rgba8_snorm, "rgba8_snorm"},
+      {Format::rgba8ui, "rgba8ui"},
+      {Format::rgb10a2, "rgb10_a2"},
+      {Format::r16, "r16"},
+      {Format::r16ui, "r16ui"},
+      {Format::r16f, "r16f"},
+      {Format::rg16, "rg16"},
+      {Format::rg16_snorm, "rg16_snorm"},
+      {Format::rg16f, "rg16f"},
+      {Format::rgba16, "rgba16"},
+      {Format::rgba16f, "rgba16f"},
+      {Format::r32ui, "r32ui"},
+      {Format::r32i, "r32i"},
+      {Format::r32f, "r32f"},
+      {Format::rg32ui, "rg32ui"},
+      {Format::rg32f, "rg32f"},
+      {Format::rgba32ui, "rgba32ui"},
+      {Format::rgba32f, "rgba32f"},
+      {Format::r11g11b10f, "r11f_g11f_b10f"},
   };
   const auto found = names.find(format);
   return found == names.end() ? "" : found->second;

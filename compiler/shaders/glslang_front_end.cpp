@@ -17,12 +17,18 @@ constexpr std::string_view kPreludeName = "<interface>";
 
 EShLanguage language(dsl::Stage stage) {
   switch (stage) {
-    case dsl::stage_vertex: return EShLangVertex;
-    case dsl::stage_tess_control: return EShLangTessControl;
-    case dsl::stage_tess_eval: return EShLangTessEvaluation;
-    case dsl::stage_geometry: return EShLangGeometry;
-    case dsl::stage_fragment: return EShLangFragment;
-    default: return EShLangCompute;
+    case dsl::stage_vertex:
+      return EShLangVertex;
+    case dsl::stage_tess_control:
+      return EShLangTessControl;
+    case dsl::stage_tess_eval:
+      return EShLangTessEvaluation;
+    case dsl::stage_geometry:
+      return EShLangGeometry;
+    case dsl::stage_fragment:
+      return EShLangFragment;
+    default:
+      return EShLangCompute;
   }
 }
 

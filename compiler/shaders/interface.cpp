@@ -57,10 +57,14 @@ void add_structs(const dsl::Program& program, Prelude& prelude) {
 std::string view_suffix(const ViewShape& view, bool multisampled) {
   const char* array = view.arrayed ? "Array" : "";
   switch (view.dimension) {
-    case dsl::Dimension::d1: return std::string("1D") + array;
-    case dsl::Dimension::d2: return std::string(multisampled ? "2DMS" : "2D") + array;
-    case dsl::Dimension::d3: return "3D";
-    case dsl::Dimension::cube: return std::string("Cube") + array;
+    case dsl::Dimension::d1:
+      return std::string("1D") + array;
+    case dsl::Dimension::d2:
+      return std::string(multisampled ? "2DMS" : "2D") + array;
+    case dsl::Dimension::d3:
+      return "3D";
+    case dsl::Dimension::cube:
+      return std::string("Cube") + array;
   }
   return "2D";
 }
@@ -102,7 +106,8 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
   const std::string type = opaque_type(program, resource, access, binding.kind);
   if (binding.kind != BindingKind::storage_image) return "layout(" + place + ") uniform " + type + " " + binding.name + ";";
   const std::string format = glsl_image_format(resource.format);
-  return "layout(" + place + (format.empty() ? "" : ", " + format) + ") " + memory_qualifier(access.mode) + "uniform " + type + " " + binding.name + ";";
+  return "layout(" + place + (format.empty() ? "" : ", " + format) + ") " + memory_qualifier(access.mode) + "uniform " + type + " " + binding.name +
+         ";";
 }
 
 // ---- what else a stage sees
@@ -123,7 +128,8 @@ void add_vertex_inputs(const dsl::Program& program, const dsl::Pass& pass, Prelu
   uint32_t location = 0;
   for (const dsl::StructId id : pass.draw.vertex) {
     for (const dsl::Field& field : program.structs[id].fields) {
-      prelude.push_back({"layout(location = " + std::to_string(location) + ") in " + glsl_variable(program, field.type, field.name) + ";", field.span});
+      prelude.push_back(
+          {"layout(location = " + std::to_string(location) + ") in " + glsl_variable(program, field.type, field.name) + ";", field.span});
       location += locations_of(field.type);
     }
   }
@@ -153,10 +159,17 @@ bool is_image(const dsl::Graph& graph, const dsl::Access& access) { return graph
 bool binding_kind(const dsl::Graph& graph, const dsl::Access& access, BindingKind& kind) {
   const bool image = is_image(graph, access);
   switch (access.role) {
-    case dsl::Role::sampled: kind = access.sampler.valid() ? BindingKind::combined_sampler : BindingKind::texture; return image;
-    case dsl::Role::storage: kind = image ? BindingKind::storage_image : BindingKind::storage_buffer; return true;
-    case dsl::Role::uniform: kind = BindingKind::uniform_buffer; return !image;
-    default: return false;
+    case dsl::Role::sampled:
+      kind = access.sampler.valid() ? BindingKind::combined_sampler : BindingKind::texture;
+      return image;
+    case dsl::Role::storage:
+      kind = image ? BindingKind::storage_image : BindingKind::storage_buffer;
+      return true;
+    case dsl::Role::uniform:
+      kind = BindingKind::uniform_buffer;
+      return !image;
+    default:
+      return false;
   }
 }
 

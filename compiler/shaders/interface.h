@@ -23,7 +23,7 @@ struct InterfaceBinding {
   uint32_t access = dsl::kAll;  // index into Pass::accesses, or
   uint32_t params = dsl::kAll;  // index into Pass::params
   std::string name;
-  dsl::Span span;               // of the declaration
+  dsl::Span span;  // of the declaration
 };
 std::vector<InterfaceBinding> pass_bindings(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass);
 

@@ -33,7 +33,8 @@ std::string restyle(const std::string& message) {
 // What to write in the pass to get `name`, if the graph has such a thing.
 std::string suggestion(const PassContext& context, const std::string& name) {
   for (const dsl::Resource& resource : context.graph.resources)
-    if (last_part(resource.name) == name) return "read " + resource.name + (resource.kind == dsl::ResourceKind::image ? " as sampled" : " as storage");
+    if (last_part(resource.name) == name)
+      return "read " + resource.name + (resource.kind == dsl::ResourceKind::image ? " as sampled" : " as storage");
   for (const dsl::Params& params : context.graph.params)
     if (!params.pass.valid() && last_part(params.name) == name) return "params " + params.name;
   return "";
@@ -92,8 +93,8 @@ void report_in_prelude(const PassContext& context, const dsl::Shader& shader, co
 void report_message(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message, ShaderPlaces& places,
                     dsl::Diagnostics& diagnostics) {
   if (message.file.empty() && message.line > 0) return report_in_prelude(context, shader, prelude, message, diagnostics);
-  if (!message.file.empty() && (report_contradiction(context, message, places, diagnostics) || report_undeclared(context, message, places, diagnostics) ||
-                                report_local_size(context, message, places, diagnostics)))
+  if (!message.file.empty() && (report_contradiction(context, message, places, diagnostics) ||
+                                report_undeclared(context, message, places, diagnostics) || report_local_size(context, message, places, diagnostics)))
     return;
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);

@@ -14,10 +14,14 @@ using spirv_cross::SPIRType;
 
 dsl::Dimension dimension(spv::Dim dim) {
   switch (dim) {
-    case spv::Dim1D: return dsl::Dimension::d1;
-    case spv::Dim3D: return dsl::Dimension::d3;
-    case spv::DimCube: return dsl::Dimension::cube;
-    default: return dsl::Dimension::d2;
+    case spv::Dim1D:
+      return dsl::Dimension::d1;
+    case spv::Dim3D:
+      return dsl::Dimension::d3;
+    case spv::DimCube:
+      return dsl::Dimension::cube;
+    default:
+      return dsl::Dimension::d2;
   }
 }
 

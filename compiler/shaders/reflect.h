@@ -11,7 +11,7 @@
 namespace rg::compiler {
 
 struct ReflectedBinding {
-  std::string name;       // of the variable, or of the block without the generated prefix
+  std::string name;  // of the variable, or of the block without the generated prefix
   uint32_t set = 0, binding = 0;
   BindingKind kind = BindingKind::texture;  // uniform blocks are uniform_buffer, parameter blocks too
   dsl::Dimension dimension = dsl::Dimension::d2;

@@ -15,20 +15,20 @@ namespace rg::compiler {
 using ReadFile = std::function<std::optional<std::string>(const std::string& path)>;
 
 struct CompiledShader {
-  std::string name;                // "culling/light_cull.comp", made unique per interface by a suffix where needed
+  std::string name;  // "culling/light_cull.comp", made unique per interface by a suffix where needed
   dsl::Stage stage = dsl::stage_compute;
-  std::vector<uint32_t> words;     // validated, optimised, stripped SPIR-V 1.5
+  std::vector<uint32_t> words;  // validated, optimised, stripped SPIR-V 1.5
 };
 struct PassShaders {
-  std::vector<size_t> shaders;           // indices of ShaderBundle::shaders, in stage order
-  std::vector<uint32_t> access_stages;   // Stage bits per Pass::accesses: who really uses it; 0: not a shader access
-  std::vector<uint32_t> params_stages;   // Stage bits per Pass::params
+  std::vector<size_t> shaders;          // indices of ShaderBundle::shaders, in stage order
+  std::vector<uint32_t> access_stages;  // Stage bits per Pass::accesses: who really uses it; 0: not a shader access
+  std::vector<uint32_t> params_stages;  // Stage bits per Pass::params
   uint32_t push_stages = 0;
 };
 struct ShaderBundle {
-  std::vector<CompiledShader> shaders;   // equal SPIR-V stored once
-  std::vector<PassShaders> passes;       // indexed by PassId
-  std::vector<std::string> read_files;   // for the depfile
+  std::vector<CompiledShader> shaders;  // equal SPIR-V stored once
+  std::vector<PassShaders> passes;      // indexed by PassId
+  std::vector<std::string> read_files;  // for the depfile
 };
 
 // Compiles every shader of `graph` and compares it with its pass. Undeclared, unused and contradicting accesses are reported at the

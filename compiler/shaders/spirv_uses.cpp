@@ -1,7 +1,6 @@
 #include "compiler/shaders/spirv_uses.h"
 
 #include <glslang/SPIRV/spirv.hpp>
-
 #include <set>
 #include <vector>
 
@@ -40,15 +39,22 @@ void add_variable(Module& module, const uint32_t* words) {
 
 bool derives_pointer(spv::Op op) {
   switch (op) {
-    case spv::OpAccessChain: case spv::OpInBoundsAccessChain: case spv::OpPtrAccessChain: case spv::OpCopyObject:
-    case spv::OpImageTexelPointer: case spv::OpSampledImage: case spv::OpImage:
+    case spv::OpAccessChain:
+    case spv::OpInBoundsAccessChain:
+    case spv::OpPtrAccessChain:
+    case spv::OpCopyObject:
+    case spv::OpImageTexelPointer:
+    case spv::OpSampledImage:
+    case spv::OpImage:
       return true;
-    default: return false;
+    default:
+      return false;
   }
 }
 
 bool is_read_modify_write(spv::Op op) {
-  return (op >= spv::OpAtomicExchange && op <= spv::OpAtomicXor) || op == spv::OpAtomicFAddEXT || op == spv::OpAtomicFMinEXT || op == spv::OpAtomicFMaxEXT;
+  return (op >= spv::OpAtomicExchange && op <= spv::OpAtomicXor) || op == spv::OpAtomicFAddEXT || op == spv::OpAtomicFMinEXT ||
+         op == spv::OpAtomicFMaxEXT;
 }
 
 bool reads_image(spv::Op op) { return (op >= spv::OpImageSampleImplicitLod && op <= spv::OpImageRead) || op == spv::OpImageSparseRead; }
@@ -63,8 +69,10 @@ Use* use_of(Module& module, uint32_t id) {
 void load(Module& module, const uint32_t* words) {
   Use* use = use_of(module, words[3]);
   if (use == nullptr) return;
-  if (module.handle_types.contains(words[1])) module.roots[words[2]] = module.roots[words[3]];
-  else use->reads = true;
+  if (module.handle_types.contains(words[1]))
+    module.roots[words[2]] = module.roots[words[3]];
+  else
+    use->reads = true;
 }
 
 void call(Module& module, const uint32_t* words, uint32_t count) {
@@ -78,19 +86,38 @@ void set_flag(Module& module, uint32_t id, bool Use::*flag) {
 
 void step(Module& module, spv::Op op, const uint32_t* words, uint32_t count) {
   switch (op) {
-    case spv::OpDecorate: return decorate(module, words, count);
-    case spv::OpTypeImage: case spv::OpTypeSampler: case spv::OpTypeSampledImage: module.handle_types.insert(words[1]); return;
-    case spv::OpVariable: return add_variable(module, words);
-    case spv::OpLoad: return load(module, words);
-    case spv::OpStore: case spv::OpAtomicStore: return set_flag(module, words[1], &Use::writes);
-    case spv::OpCopyMemory: set_flag(module, words[1], &Use::writes); return set_flag(module, words[2], &Use::reads);
-    case spv::OpImageWrite: return set_flag(module, words[1], &Use::writes);
-    case spv::OpAtomicLoad: return set_flag(module, words[3], &Use::reads);
-    case spv::OpFunctionCall: return call(module, words, count);
-    case spv::OpArrayLength: case spv::OpImageQuerySize: case spv::OpImageQuerySizeLod: case spv::OpImageQueryLevels: case spv::OpImageQuerySamples:
+    case spv::OpDecorate:
+      return decorate(module, words, count);
+    case spv::OpTypeImage:
+    case spv::OpTypeSampler:
+    case spv::OpTypeSampledImage:
+      module.handle_types.insert(words[1]);
+      return;
+    case spv::OpVariable:
+      return add_variable(module, words);
+    case spv::OpLoad:
+      return load(module, words);
+    case spv::OpStore:
+    case spv::OpAtomicStore:
+      return set_flag(module, words[1], &Use::writes);
+    case spv::OpCopyMemory:
+      set_flag(module, words[1], &Use::writes);
+      return set_flag(module, words[2], &Use::reads);
+    case spv::OpImageWrite:
+      return set_flag(module, words[1], &Use::writes);
+    case spv::OpAtomicLoad:
+      return set_flag(module, words[3], &Use::reads);
+    case spv::OpFunctionCall:
+      return call(module, words, count);
+    case spv::OpArrayLength:
+    case spv::OpImageQuerySize:
+    case spv::OpImageQuerySizeLod:
+    case spv::OpImageQueryLevels:
+    case spv::OpImageQuerySamples:
       use_of(module, words[3]);
       return;
-    default: break;
+    default:
+      break;
   }
   if (derives_pointer(op)) {
     if (use_of(module, words[3]) != nullptr) module.roots[words[2]] = module.roots[words[3]];

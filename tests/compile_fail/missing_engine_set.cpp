@@ -1,4 +1,4 @@
-// error: .*rg::Required<VkDescriptorSet
+// error: use of deleted function .*rg::Required
 // A descriptor set the engine owns and does not give.
 #include "recorders.h"
 

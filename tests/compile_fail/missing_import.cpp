@@ -1,4 +1,4 @@
-// error: .*rg::Required<rg::ImportedBuffer>
+// error: use of deleted function .*rg::Required
 // A resource the engine forgets to bring.
 #include "recorders.h"
 

@@ -1,4 +1,4 @@
-// error: cannot convert
+// error: could not convert|cannot convert
 // Push constants of another pass's struct.
 #include "recorders.h"
 
@@ -6,6 +6,6 @@ void record(recorders::MeshesPass& pass) {
 #ifdef RG_RIGHT
   pass.push(recorders::Draw{.model = 1});
 #else
-  pass.push(recorders::Blur_std140{.radius = 1});
+  pass.push(recorders::Blur{.radius = 1});
 #endif
 }

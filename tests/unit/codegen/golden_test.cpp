@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "compiler/codegen/bind.h"
 #include "compiler/compile.h"
 
 namespace rg::compiler {
@@ -75,11 +76,24 @@ TEST_P(Golden, GeneratedFiles) {
   EXPECT_EQ(expected.size(), generated.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Codegen, Golden, testing::Values("minimal", "recorders"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Codegen, Golden, testing::Values("minimal", "recorders", "variants"), [](const auto& info) { return std::string(info.param); });
 
 TEST(Generate, TheSameInputGivesTheSameBytes) {
   const fs::path folder = fs::path(RGC_SOURCE_DIR) / "tests/golden/codegen/recorders";
   EXPECT_EQ(generate_case(folder), generate_case(folder));
+}
+
+// Tables are replaced, not appended to.
+TEST(Attach, TwiceIsOnce) {
+  dsl::Diagnostics diagnostics;
+  const std::string root = std::string(RGC_SOURCE_DIR) + "/tests/golden/codegen/recorders/recorders.rg";
+  CompileResult result = compile(root, read_file, {}, diagnostics);
+  ASSERT_EQ(result.graphs.size(), 1u);
+  CompiledGraph& graph = result.graphs[0];
+  const auto text = [&] { return generate(result.program, {{graph.graph, &graph.plans}}, result.sources, "").at(1).text; };
+  const std::string once = text();
+  attach_shaders(graph.plans[0].plan, result.program, graph.graph, graph.shaders);
+  EXPECT_EQ(text(), once);
 }
 
 // Nothing of where it was compiled may stay in the text.

@@ -34,9 +34,10 @@ TEST_F(Interface, BindingsFollowAccessesThenParams) {
   program.constants.push_back({"frame.TILE", 8});
   program.constants.push_back({"BIG", int64_t{1} << 40});
   const auto depth = image("depth", Format::d32f), hdr = image("hdr", Format::rgba16f), mask = buffer("mask", {dsl::Scalar::u32, 1, 1, {}, 0});
-  dsl::Pass& pass = compute({access(depth, Mode::read, Role::sampled), access(hdr, Mode::write, Role::storage), access(mask, Mode::atomic, Role::storage),
-                             access(mask, Mode::read, Role::indirect), access(mask, Mode::read, Role::storage)},
-                            "");
+  dsl::Pass& pass =
+      compute({access(depth, Mode::read, Role::sampled), access(hdr, Mode::write, Role::storage), access(mask, Mode::atomic, Role::storage),
+               access(mask, Mode::read, Role::indirect), access(mask, Mode::read, Role::storage)},
+              "");
   pass.params = {graph().params.add({"view", type, {}, {}})};
   EXPECT_EQ(prelude(pass, dsl::stage_compute),
             "const int TILE = 8;\n"
@@ -57,7 +58,8 @@ TEST_F(Interface, ViewsOfImages) {
   resource(sky).layers = 6;
   resource(cascades).layers = 4;
   resource(samples).samples = 4;
-  auto shadow = access(cascades, Mode::read, Role::sampled), one = shadow, face = access(sky, Mode::write, Role::storage), smooth = access(sky, Mode::read, Role::sampled);
+  auto shadow = access(cascades, Mode::read, Role::sampled), one = shadow, face = access(sky, Mode::write, Role::storage),
+       smooth = access(sky, Mode::read, Role::sampled);
   shadow.sampler = sampler(true);
   one.name = "one_cascade";
   one.range.layer = 2;
@@ -67,14 +69,14 @@ TEST_F(Interface, ViewsOfImages) {
   smooth.sampler = sampler(false);
   auto bits = access(stencil, Mode::read, Role::sampled);
   bits.range.aspects = 4;
-  const dsl::Pass& pass = compute({access(volume, Mode::write, Role::storage), smooth, face, shadow, one, access(ids, Mode::read, Role::sampled), bits,
-                                   access(samples, Mode::read, Role::sampled)},
+  const dsl::Pass& pass = compute({access(volume, Mode::write, Role::storage), smooth, face, shadow, one, access(ids, Mode::read, Role::sampled),
+                                   bits, access(samples, Mode::read, Role::sampled)},
                                   "");
   const std::string text = prelude(pass, dsl::stage_compute);
   for (const char* line : {"binding = 0, rgba16f) writeonly uniform image3D volume;", "binding = 1) uniform samplerCube sky;",
                            "binding = 2, rgba16f) writeonly uniform image2D face;", "binding = 3) uniform sampler2DArrayShadow cascades;",
-                           "binding = 4) uniform texture2D one_cascade;", "binding = 5) uniform utexture2D ids;", "binding = 6) uniform utexture2D stencil;",
-                           "binding = 7) uniform texture2DMS samples;"})
+                           "binding = 4) uniform texture2D one_cascade;", "binding = 5) uniform utexture2D ids;",
+                           "binding = 6) uniform utexture2D stencil;", "binding = 7) uniform texture2DMS samples;"})
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
 }
 
@@ -93,7 +95,8 @@ TEST_F(Interface, RasterStages) {
   const std::string push = "layout(push_constant, std430) uniform rg_block_per_draw { Draw per_draw; };\n";
   const std::string vertex_text = prelude(pass, dsl::stage_vertex), fragment_text = prelude(pass, dsl::stage_fragment);
   EXPECT_NE(vertex_text.find(push + "layout(location = 0) in mat4 place;\nlayout(location = 4) in vec3 tint;\n"), std::string::npos) << vertex_text;
-  EXPECT_NE(fragment_text.find(push + "layout(location = 0) out vec4 hdr;\nlayout(location = 1) out uvec4 ids;\n"), std::string::npos) << fragment_text;
+  EXPECT_NE(fragment_text.find(push + "layout(location = 0) out vec4 hdr;\nlayout(location = 1) out uvec4 ids;\n"), std::string::npos)
+      << fragment_text;
 }
 
 TEST_F(Interface, EngineSetsAreNumbered) {

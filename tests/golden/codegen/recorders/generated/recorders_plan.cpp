@@ -145,11 +145,11 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> meshes
-    {.image = {.resource = resource::color}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
+    {.image = {.resource = resource::color}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader | stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> meshes
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
@@ -191,6 +191,7 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
+    {.buffer = {.resource = resource::table}, .src_stages = stage::vertex_shader, .dst_stages = stage::copy},  // frame start -> fill_table
     {.buffer = {.resource = resource::table}, .src_stages = stage::copy, .src_accesses = access::transfer_write, .dst_stages = stage::vertex_shader,
      .dst_accesses = access::shader_storage_read},  // fill_table -> meshes
     {.buffer = {.resource = resource::counted}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
@@ -200,14 +201,14 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {},  // before fill_table  recorders.rg:32
-    {.image_count = 2, .buffer_count = 1},  // before meshes  recorders.rg:35
-    {.first_image = 2, .image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before own_pipelines  recorders.rg:47
+    {.buffer_count = 1},  // before fill_table  recorders.rg:32
+    {.image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:35
+    {.first_image = 2, .image_count = 2, .first_buffer = 2, .buffer_count = 1},  // before own_pipelines  recorders.rg:47
     {.first_image = 4, .image_count = 3},  // before bloom_first  recorders.rg:52
     {.first_image = 7, .image_count = 1},  // before bloom_down[1]  recorders.rg:59
     {.first_image = 8, .image_count = 1},  // before bloom_down[2]  recorders.rg:59
     {.first_image = 9, .image_count = 2},  // before show  recorders.rg:75
-    {.first_image = 11, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // at the end of the frame
+    {.first_image = 11, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {

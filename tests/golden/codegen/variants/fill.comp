@@ -1,0 +1,1 @@
+void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(0.5)); }
