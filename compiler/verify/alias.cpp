@@ -92,11 +92,11 @@ void check_release(Aliases& aliases, uint32_t plan_resource) {
     CellState state = aliases.sync.last[aliases.model.cell(r, 0, c)];
     // What comes after waits for the release's stages; writes that are available chain from any of them.
     for (const ReadRecord& read : state.reads)
-      if (!((read.reach.stages | stage_bit(read.stage)) & pending.stages))
+      if (!((read.reach.stages | stage_bit(read.stage)) & with_earlier(pending.stages)))
         report_alias(aliases, plan_resource, "the release does not wait for reads in " + stage_name(read.stage));
     for (const WriteRecord& write : state.writes) {
       const bool named = write.stage < kStageCount && (pending.accesses[write.stage] & access_bit(write.access));
-      const bool chained = write.available && (write.reach.stages & pending.stages);
+      const bool chained = write.available && (write.reach.stages & with_earlier(pending.stages));
       if (!named && !chained) report_alias(aliases, plan_resource, "the release does not make a write in " + stage_name(write.stage) + " available");
     }
   }

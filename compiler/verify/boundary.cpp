@@ -46,7 +46,17 @@ Layout layout_of_state(dsl::Role role, uint32_t aspect) {
   }
 }
 
-bool is_covered(const ReadRecord& read, const Pending& pending) { return ((read.reach.stages | stage_bit(read.stage)) & pending.stages) != 0; }
+// Whoever waits for a pending stage waits for what comes before it in the pipeline, too.
+bool is_covered(const ReadRecord& read, const Pending& pending) {
+  return ((read.reach.stages | stage_bit(read.stage)) & with_earlier(pending.stages)) != 0;
+}
+
+StageSet stages_without(const Reach& reach, StageSet stages) {
+  StageSet result = 0;
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if ((stages & stage_bit(s)) && !(reach.stages & with_earlier(stage_bit(s)))) result |= stage_bit(s);
+  return result;
+}
 
 std::string why_not_covered(const WriteRecord& write, const Pending& pending) {
   if (!write.available) {
@@ -55,11 +65,11 @@ std::string why_not_covered(const WriteRecord& write, const Pending& pending) {
   }
   if (pending.has_writes()) {
     for (uint32_t s = 0; s < kStageCount; ++s)
-      if ((pending.accesses[s] & kAllWrites) && (write.reach.stages & stage_bit(s))) return "";
+      if ((pending.accesses[s] & kAllWrites) && (write.reach.stages & with_earlier(stage_bit(s)))) return "";
     return "no named write comes after its last write";
   }
-  if (pending.stages & ~write.reach.stages)
-    return "stage " + stages_text(pending.stages & ~write.reach.stages) + " is not ordered after its last write";
+  const StageSet unordered = stages_without(write.reach, pending.stages);
+  if (unordered != 0) return "stage " + stages_text(unordered) + " is not ordered after its last write";
   for (uint32_t s = 0; s < kStageCount; ++s)
     if (!pending.discard && (pending.accesses[s] & kAllReads & ~write.visible[s])) return "its last write is not visible to " + stage_name(s);
   return "";

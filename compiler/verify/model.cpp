@@ -209,10 +209,23 @@ std::vector<PlanRow> rows_of(const Model& model, const Pass& pass, const Extents
   return rows;
 }
 
-const Access* row_for(const std::vector<PlanRow>& rows, const Use& use, uint32_t cell) {
-  for (const PlanRow& row : rows)
-    if (row.resource == use.resource && row.row->ref.age == use.age && std::binary_search(row.cells.begin(), row.cells.end(), cell)) return row.row;
-  return nullptr;
+// All rows that speak of the cell, joined.
+struct Listed {
+  bool any = false;
+  StageSet stages = 0;
+  AccessSet accesses = 0;
+  Layout layout = Layout::undefined;
+};
+Listed listed(const std::vector<PlanRow>& rows, const Use& use, uint32_t cell) {
+  Listed result;
+  for (const PlanRow& row : rows) {
+    if (row.resource != use.resource || row.row->ref.age != use.age || !std::binary_search(row.cells.begin(), row.cells.end(), cell)) continue;
+    result.any = true;
+    result.stages |= expand_stages(row.row->stages);
+    result.accesses |= expand_accesses(row.row->accesses);
+    result.layout = row.row->layout;
+  }
+  return result;
 }
 
 struct PassContext {
@@ -229,22 +242,20 @@ void report_pass(const PassContext& context, Hazard hazard, const PassNode& node
 // Takes layouts from the plan's rows and demands that the rows name what the access does.
 void take_rows(const PassContext& context, PassNode& node, Use& use, const std::vector<PlanRow>& rows) {
   const bool image = context.model.resources[use.resource].partition.shape.image;
+  const dsl::Pass& pass = context.model.pass(node.plan_pass);
   for (const uint32_t cell : use.cells) {
-    const Access* row = row_for(rows, use, cell);
-    use.layouts.push_back(row ? row->layout : Layout::undefined);
-    if (!row) {
+    const Listed row = listed(rows, use, cell);
+    use.layouts.push_back(row.layout);
+    if (!row.any) {
       report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's pass does not list this access");
       continue;
     }
-    for (const Touch& touch : use.touches) {
-      const bool stages = (touch.stages & ~expand_stages(row->stages)) == 0, accesses = (touch.accesses & ~expand_accesses(row->accesses)) == 0;
-      if (touch.needed && !(stages && accesses))
+    for (const Touch& touch : use.touches)
+      if (touch.needed && ((touch.stages & ~row.stages) || (touch.accesses & ~row.accesses)))
         report_pass(context, Hazard::invalid_plan, node, use.resource, "the plan's row names other stages or accesses than the program declares");
-    }
-    const dsl::Pass& pass = context.model.pass(node.plan_pass);
     const uint32_t aspect = aspect_of_cell(context.model.resources[use.resource].partition, cell);
-    if (image && !is_legal_layout(pass, pass.accesses[use.access], aspect, layout_of_aspect(row->layout, aspect)))
-      report_pass(context, Hazard::wrong_layout, node, use.resource, "layout " + layout_name(row->layout) + " does not allow this access");
+    if (image && !is_legal_layout(pass, pass.accesses[use.access], aspect, layout_of_aspect(row.layout, aspect)))
+      report_pass(context, Hazard::wrong_layout, node, use.resource, "layout " + layout_name(row.layout) + " does not allow this access");
   }
 }
 
@@ -278,8 +289,7 @@ Use make_use(const PassContext& context, PassNode& node, uint32_t index, const s
   if (is_attachment(access.role))
     take_attachment(context, node, access, use);
   else {
-    const Access* row = use.cells.empty() ? nullptr : row_for(rows, use, use.cells.front());
-    use.touches = touches_of(pass, access, row ? row->stages : 0);
+    use.touches = touches_of(pass, access, use.cells.empty() ? 0 : listed(rows, use, use.cells.front()).stages);
   }
   take_rows(context, node, use, rows);
   return use;
@@ -292,7 +302,6 @@ void add_pass(const PassContext& context, uint32_t index) {
   node.plan_pass = index;
   node.program_pass = model.input->program_pass[index];
   const dsl::Pass& source = model.input->graph.passes.rows[node.program_pass];
-  node.may_skip = !source.conditions.empty() || !source.mip_limits.empty();
   const std::vector<PlanRow> rows = rows_of(model, pass, context.extents);
   for (uint32_t i = 0; i < source.accesses.size(); ++i)
     if (model.resources[source.accesses[i].resource.value].plan != kNone)
@@ -364,6 +373,14 @@ void number_orders(Model& model) {
 }  // namespace
 
 std::string Model::pass_name(uint32_t plan_pass) const { return pass(plan_pass).name; }
+
+bool Model::may_skip(uint32_t plan_pass, uint32_t resource_index, uint32_t cell_index) const {
+  const dsl::Pass& row = pass(plan_pass);
+  if (!row.conditions.empty()) return true;
+  return std::any_of(row.mip_limits.begin(), row.mip_limits.end(), [&](const dsl::MipLimit& limit) {
+    return limit.image.value != resource_index || first_mip_of_cell(resources[resource_index].partition, cell_index) < limit.mip;
+  });
+}
 
 std::string Model::place(uint32_t resource_index, uint32_t cell) const {
   const std::string part = cell_text(resources[resource_index].partition, cell);

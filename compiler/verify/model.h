@@ -37,7 +37,6 @@ struct Use {
 
 struct PassNode {
   uint32_t plan_pass = 0, program_pass = 0;
-  bool may_skip = false;
   uint32_t rendering = 0;  // passes of one rendering share a number; 0 none
   bool first_in_rendering = true, last_in_rendering = true;
   std::vector<Use> uses;
@@ -103,6 +102,8 @@ struct Model {
     return node.first_cell + copy * node.partition.cell_count() + cell;
   }
   const dsl::Resource& resource(uint32_t index) const { return input->graph.resources.rows[index]; }
+  // The pass may not run in a frame in which the cell exists.
+  bool may_skip(uint32_t plan_pass, uint32_t resource, uint32_t cell) const;
   const dsl::Pass& pass(uint32_t plan_pass) const { return input->graph.passes.rows[passes[plan_pass].program_pass]; }
   std::string pass_name(uint32_t plan_pass) const;
   std::string place(uint32_t resource, uint32_t cell) const;  // "`bloom` mip 2"

@@ -101,7 +101,7 @@ dsl::Range effective_range(const dsl::Access& access, uint32_t format_aspects) {
   return range;
 }
 
-std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, Stages planned) {
+std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, StageSet planned) {
   switch (access.role) {
     case Role::sampled:
       return {{shader_stages(pass, access), access_bit(kSampledRead)}};
@@ -129,7 +129,7 @@ std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, 
     case Role::fill_dst:
       return {transfer(kClear, true)};
     case Role::update_dst:
-      return {transfer(expand_stages(planned) & stage_bit(kCopy) ? kCopy : kClear, true)};
+      return {transfer(planned & stage_bit(kCopy) ? kCopy : kClear, true)};
     case Role::resolve_src:
       // In a rendering the source is an attachment that the rendering itself has written.
       return {pass.kind == dsl::PassKind::raster ? Touch{stage_bit(kColorOutput), access_bit(kColorRead), false} : transfer(kResolve, false)};
@@ -197,8 +197,7 @@ bool uses_contents(const dsl::Pass& pass, const dsl::Access& access) {
   const bool covers = access.covers || pass.draw.kind == dsl::DrawKind::fullscreen;
   if (access.role == Role::color) return !covers || access.blend.enabled;
   if (is_depth_role(access.role)) return !access.covers;
-  const bool indirect = pass.dispatch.kind == dsl::DispatchKind::indirect;
-  return indirect || access.disjoint;
+  return access.disjoint;
 }
 
 bool writes_contents(const dsl::Access& access) { return access.mode != Mode::read && access.role != Role::depth_readonly; }

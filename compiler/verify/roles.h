@@ -26,7 +26,7 @@ dsl::Range effective_range(const dsl::Access& access, uint32_t format_aspects);
 
 // Of an access that is not an attachment. `planned` are the stages the plan states: an update of a buffer from host bytes may be a
 // copy or an inline update, so there the plan chooses.
-std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, Stages planned);
+std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, StageSet planned);
 // Of an attachment with the operations the plan gives it.
 std::vector<Touch> touches_of_attachment(const dsl::Access& access, LoadOp load, StoreOp store);
 // The layouts in which `aspect` may be while the access happens.

@@ -151,8 +151,10 @@ void check_image_scope(const Usage& usage, const Scope& scope) {
     report_scope(usage, scope, "its range is outside the image");
   if (box.aspects & ~node.partition.shape.aspects) report_scope(usage, scope, "its aspects are not those of the format");
   if (scope.new_layout == Layout::undefined) report_scope(usage, scope, "its new layout is undefined");
+  // Of imported images the engine decides the usage.
+  const uint32_t allowed = image.lifetime == Lifetime::imported ? 0 : image.usage;
   for (const Layout layout : {scope.old_layout, scope.new_layout})
-    if (usage_for(layout) != 0 && image.usage != 0 && !(usage_for(layout) & image.usage))
+    if (usage_for(layout) != 0 && allowed != 0 && !(usage_for(layout) & allowed))
       report_scope(usage, scope, "the image's usage does not allow layout " + layout_name(layout));
   if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
 }

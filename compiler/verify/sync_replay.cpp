@@ -137,7 +137,7 @@ void check_layout(Replay& replay, const Point& at, const CellState& state, Layou
 
 // All touches of one pass on one cell: what is checked against the state before, and recorded together.
 struct CellUse {
-  bool touched = false;
+  bool touched = false, may_skip = false;
   uint64_t order = 0;
   StageSet read_stages = 0;
   AccessSet writes[kStageCount] = {};
@@ -159,7 +159,7 @@ void gather(CellUse& cell_use, const Use& use) {
 
 void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
   for (WriteRecord& write : state.writes)
-    if (use.read_stages && write.pass != pass && !(use.order != 0 && write.order == use.order)) write.read_since = true;
+    if (use.read_stages && !use.may_skip && write.pass != pass && !(use.order != 0 && write.order == use.order)) write.read_since = true;
   for (uint32_t s = 0; s < kStageCount; ++s) {
     // A later access that waits for this pass's write in a stage waits for its read there as well.
     if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;
@@ -170,7 +170,7 @@ void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& 
 
 void record_writes(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
   const bool commuting = use.order != 0 && !(use.order & kRenderingOrder);
-  if (!replay.model.passes[pass].may_skip && !commuting) {
+  if (!use.may_skip && !commuting) {
     std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || replay.now() != read.seen; });
     state.writes.clear();
   }
@@ -198,6 +198,7 @@ void check_use(Replay& replay, const PassNode& node, const Use& use, std::map<ui
     // Two accesses of one pass to one cell: they share an order only if both have it.
     cell_use.order = cell_use.touched && cell_use.order != order ? 0 : order;
     cell_use.touched = true;
+    cell_use.may_skip = replay.model.may_skip(node.plan_pass, use.resource, use.cells[i]);
     gather(cell_use, use);
   }
 }
@@ -342,18 +343,21 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
   }
 }
 
+// What the exit state promises rests on these proofs.
+void require_reach(Replay& replay, const Reach& reach, StageSet stages) {
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (reach.stages & stages & stage_bit(s)) replay.require(*proof_of_reach(reach, s));
+}
+
 void require_all(Replay& replay, const CellState& state, const Pending& pending) {
   for (const ReadRecord& read : state.reads)
-    if (!(pending.stages & stage_bit(read.stage)))
-      for (uint32_t s = 0; s < kStageCount; ++s)
-        if (pending.stages & read.reach.stages & stage_bit(s)) replay.require(*proof_of_reach(read.reach, s));
+    if (!(with_earlier(pending.stages) & stage_bit(read.stage))) require_reach(replay, read.reach, with_earlier(pending.stages));
   for (const WriteRecord& write : state.writes) {
     if (!write.available) continue;
-    for (uint32_t s = 0; s < kStageCount; ++s) {
-      if (pending.stages & stage_bit(s)) replay.require(*proof_of_reach(write.reach, s));
+    require_reach(replay, write.reach, pending.stages);
+    for (uint32_t s = 0; s < kStageCount && !pending.has_writes(); ++s)
       for (uint32_t a = 0; a < kAccessCount; ++a)
-        if (!pending.has_writes() && (pending.accesses[s] & kAllReads & access_bit(a))) replay.require(*proof_of_visible(write, s, a));
-    }
+        if (pending.accesses[s] & kAllReads & access_bit(a)) replay.require(*proof_of_visible(write, s, a));
   }
   if (state.layout_scope != kNone && pending.layout != Layout::undefined) replay.require({atom_of(state.layout_scope, AtomField::whole)});
 }
@@ -464,7 +468,6 @@ SyncResult replay_sync(const Model& model, uint32_t frames, bool proofs, Report&
     enter(replay, entry);
     run_frame(replay);
     leave(replay, exit);
-    replay.history.proofs = false;
   }
   return std::move(replay.result);
 }

@@ -51,8 +51,8 @@ struct WriteRecord {
   uint64_t order = 0;      // commuting writers, and passes of one rendering, share a number and do not wait for each other
   uint32_t seen = 0;
   bool available = false;
-  bool read_since = false;
-  Reach reach;  // from where it became available
+  bool read_since = false;  // by a pass that always runs: who waits for it comes after this write, and sees it
+  Reach reach;              // from where it became available
   AccessSet visible[kStageCount] = {};
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
 };

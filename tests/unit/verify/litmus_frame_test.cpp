@@ -242,7 +242,9 @@ const Litmus kCases[] = {
      [](Builder& b) {
        const auto h = b.buffer("h");
        history(b, h, state(kCs, kWrite));
+       const auto out = output(b, "out");
        b.memory(kCs, kWrite, kCs, kRead | kWrite);
+       b.compute("use", {reads(h).prev(1), writes(out)});
        b.condition(b.compute("w", {writes(h)}), "sometimes");
      }},
     {"ImportNotVisible",

@@ -162,7 +162,11 @@ const Litmus kCases[] = {
      [](Builder& b) {
        const auto x = b.image("x");
        b.planned(x).usage = 0x4;
-       b.start(x, Layout::transfer_dst, st::copy, ac::transfer_write);
+       b.lifetime(x, dsl::Lifetime::transient);
+       Boundary last;
+       last.stages = st::copy, last.accesses = ac::transfer_write, last.discard = true;
+       b.boundary(x, last, last);
+       b.image_barrier(x, Layout::undefined, Layout::transfer_dst, st::copy, ac::transfer_write, st::copy, ac::transfer_write);
        b.transfer("w", {writes(x, Role::copy_dst)});
      }},
     {"TwoTransitionsInOneCommand",
