@@ -94,7 +94,7 @@ std::vector<std::vector<Region>> all_regions(const dsl::Program& program, const 
 
 uint32_t copies_of(const dsl::Resource& resource, uint32_t frames) {
   if (resource.lifetime == dsl::Lifetime::history) return resource.history + 1;
-  return resource.lifetime == dsl::Lifetime::readback ? frames : 1;
+  return resource.lifetime == dsl::Lifetime::readback || resource.is_surface ? frames : 1;
 }
 
 void add_rivals(Cells& cells, const std::vector<Placement>& placement) {

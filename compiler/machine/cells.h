@@ -2,7 +2,7 @@
 // resource are its pieces once a copy.
 //
 //   resources   those of the program by their id; pieces are shared by program and plan
-//   copies      history n: n + 1, age k in frame f is copy (f - k) mod (n + 1); read-back buffers: one a frame; others one
+//   copies      history n: n + 1, age k in frame f is copy (f - k) mod (n + 1); read-back buffers and surfaces: one a frame; others one
 #pragma once
 
 #include <cstdint>

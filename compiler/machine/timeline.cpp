@@ -249,7 +249,7 @@ struct Unroller {
       event.dst_agents |= AgentSet{1} << event.agent;
     }
     if (event.stages == 0) event.stages = boundary_stages(resource);
-    event.after = left_by[resource];
+    if (!row(resource).is_surface) event.after = left_by[resource];  // the next frame gets another image
     add(std::move(event));
   }
 
