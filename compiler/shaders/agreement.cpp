@@ -95,14 +95,21 @@ void check_own_descriptors(const Checker& c, const StageOutput& stage, const std
   }
 }
 
-void check_outputs(const Checker& c, const StageOutput& fragment) {
+const StageOutput* find_stage(const Checker& c, dsl::Stage stage) {
+  for (const StageOutput& output : c.stages)
+    if (output.stage == stage) return &output;
+  return nullptr;
+}
+
+void check_outputs(const Checker& c) {
+  const StageOutput* fragment = find_stage(c, dsl::stage_fragment);
   uint32_t location = 0;
   for (const dsl::Access& access : c.context.pass.accesses) {
     if (access.role != dsl::Role::color) continue;
-    const auto found = fragment.uses.outputs.find(location++);
-    if (found != fragment.uses.outputs.end() && found->second.writes) continue;
+    const uint32_t at = location++;
+    if (fragment != nullptr && fragment->uses.outputs.contains(at) && fragment->uses.outputs.at(at).writes) continue;
     c.diagnostics.report(DiagnosticKind::OutputNotWritten, access.span, {access.name, c.context.pass.name})
-        .note(DiagnosticKind::ShaderOfPass, fragment.span, {c.context.pass.name});
+        .note(DiagnosticKind::ShaderOfPass, (fragment != nullptr ? *fragment : c.stages.front()).span, {c.context.pass.name});
   }
 }
 
@@ -157,10 +164,10 @@ void check_agreement(const PassContext& context, const std::vector<StageOutput>&
     check_update(c, binding, access);
   }
   check_per_draw(c);
+  check_outputs(c);
   for (const StageOutput& stage : stages) {
     check_own_descriptors(c, stage, bindings);
     check_layouts(c, stage);
-    if (stage.stage == dsl::stage_fragment) check_outputs(c, stage);
   }
 }
 

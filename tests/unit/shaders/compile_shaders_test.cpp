@@ -229,7 +229,14 @@ TEST_F(CompileShaders, OutputNotWritten) {
   raster({access(hdr, Mode::write, Role::color), access(ids, Mode::write, Role::color)}, "void main() { gl_Position = vec4(0); }\n",
          "void main() { hdr = vec4(1); }\n");
   compile();
-  EXPECT_EQ(report().substr(0, report().find('\n')), "RG0409 passes.rg:6:5 colour `ids` of pass `draw` is never written by its fragment shader");
+  EXPECT_EQ(report().substr(0, report().find('\n')), "RG0409 passes.rg:6:5 colour `ids` of pass `draw` is written by no fragment shader");
+}
+
+TEST_F(CompileShaders, ColourWithoutFragmentShader) {
+  const auto hdr = image("hdr", Format::rgba16f);
+  raster({access(hdr, Mode::write, Role::color)}, "void main() { gl_Position = vec4(0); }\n", "");
+  compile();
+  EXPECT_EQ(report().substr(0, report().find('\n')), "RG0409 passes.rg:6:5 colour `hdr` of pass `draw` is written by no fragment shader");
 }
 
 TEST_F(CompileShaders, LoopInstancesShareOneModule) {
