@@ -94,7 +94,7 @@ class Synchroniser {
     else
       b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
     // Without the readers in between this is a write after the write before them: made available by the barrier that serves them, not yet visible.
-    if (from.skippable && from.defined && to.writes) b.dst_stages |= e.write_stages, b.dst_accesses |= e.writes;
+    if (from.skippable && to.writes) b.dst_stages |= e.write_stages, b.dst_accesses |= e.writes;
   }
 
   // Nothing to order and nothing to change.
@@ -188,7 +188,7 @@ class Synchroniser {
     const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
     const Epoch& last = whole.epochs.back();
     const Side next{after, after.writes != 0, true, true, {}, false};
-    const bool stays = resource.after.role == dsl::Role::undefined || (!last.writes && !next.writes && (after.layout == last.effect.layout));
+    const bool stays = resource.after.role == dsl::Role::undefined || continues_after(last, after);
     if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, defined), next)});
     boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
     const bool undefined_after = resource.after.role == dsl::Role::undefined;
@@ -208,11 +208,15 @@ class Synchroniser {
     return side;
   }
 
-  // Reads that the frame ends with and reads that come after it share a barrier, if the frame has one before them.
-  void cover_after(Line& line, const Side& before, const Effect& after) const {
+  // Reads that the frame ends with and reads that come after it share a barrier: the one in front of them, if the frame has it.
+  static void cover_after(Line& line, const Side& before, const Effect& after) {
     Epoch& last = line.epochs.back();
-    const bool alone = line.epochs.size() == 1 && is_visible(before, last);
-    if (!last.writes && !after.writes && after.layout == last.effect.layout && !alone) merge(last.covered, after);
+    const bool has_barrier = line.epochs.size() > 1 || !is_visible(before, last);
+    if (has_barrier && continues_after(last, after)) merge(last.covered, after);
+  }
+  // Whoever waits for the state after the frame waits for these reads, too.
+  static bool continues_after(const Epoch& last, const Effect& after) {
+    return !last.writes && after.writes == 0 && after.layout == last.effect.layout && (last.effect.stages() & ~with_earlier(after.stages())) == 0;
   }
 
   static bool is_visible(const Side& before, const Epoch& first) {
