@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <random>
@@ -23,10 +24,10 @@ struct Cell {  // one subresource of an image, or a whole buffer
   bool defined = false;      // in program order, so far
 };
 struct Declared {
-  std::string name, declaration;
+  std::string name, declaration = {};
   bool buffer = false, history = false;
   uint32_t scale = 1;        // images: of the view
-  std::vector<size_t> cells;
+  std::vector<size_t> cells = {};
 };
 
 // Numbers of one frame by cell, and of the frame before.
@@ -142,8 +143,7 @@ class Generator {
 
   std::string size_of(size_t cell) const {
     if (cells_[cell].buffer) return std::to_string(kElements);
-    const std::string& name = declared_[cells_[cell].resource].name;
-    return cells_[cell].mip > 0 ? fmt::format("{}.mip({})", name, cells_[cell].mip) : name;
+    return cells_[cell].place;
   }
 
   static std::string hash_text(uint32_t seed, const std::vector<Source>& sources) {
@@ -256,7 +256,6 @@ class Generator {
 
   std::string program() const {
     std::string text = "module random\n\nextent view = runtime(40, 24) max(64, 64)\n\ngraph frame() {\n";
-    std::vector<bool> used(declared_.size());
     for (const Declared& declared : declared_) text += "  " + declared.declaration + "\n";
     const size_t n = probes_.size();
     text += fmt::format("  buffer least : u32[{0}]\n  buffer greatest : u32[{0}]\n  buffer least_found : u32[{0}] readback\n  buffer greatest_found : u32[{0}] readback\n", n);
