@@ -1,0 +1,149 @@
+// Deferred shading against a double-precision sum over all lights, and its light paths against each other.
+#include "tests/reference/shading.h"
+
+#include "tests/reference/culling.h"
+#include "examples/demo/mesh_builder.h"
+#include "tests/unit/frame/lab.h"
+
+namespace rg::test {
+namespace {
+
+namespace pass = frame::pass;
+namespace resource = frame::resource;
+
+struct GBuffer { Texels depth, albedo, normal, material, emissive; };
+GBuffer read_gbuffer(Lab& lab, const FrameData& data) {
+  return {lab.image(data, pass::gbuffer_props, resource::depth), lab.image(data, pass::gbuffer_props, resource::albedo),
+          lab.image(data, pass::gbuffer_props, resource::normal), lab.image(data, pass::gbuffer_props, resource::material),
+          lab.image(data, pass::gbuffer_props, resource::emissive)};
+}
+
+reference::SurfacePoint surface_at(const GBuffer& g, const FrameData& data, int x, int y) {
+  reference::SurfacePoint s;
+  s.position = reference::world_position(data.view, x, y, g.depth.at(x, y).x);
+  s.normal = reference::decode_normal(static_cast<uint16_t>(g.normal.at(x, y).x * 65535 + 0.5f), static_cast<uint16_t>(g.normal.at(x, y).y * 65535 + 0.5f));
+  s.eye = glm::normalize(reference::to_double(data.view.position) - s.position);
+  s.base = glm::dvec3(g.albedo.at(x, y));
+  s.roughness = g.material.at(x, y).x;
+  s.metallic = g.material.at(x, y).y;
+  return s;
+}
+
+void keep_lamps_only(FrameData& data) { data.view.sun_color = data.view.ambient = {0, 0, 0}; }
+
+// Half precision rounds to 2^-11; below its normal range to 2^-24. Where the eye grazes the surface, the shader's float and this
+// double disagree about a small cosine.
+void expect_close(const glm::vec4& actual, const glm::dvec3& expected, double scale, int x, int y) {
+  for (int i = 0; i < 3; ++i)
+    ASSERT_NEAR(actual[i], expected[i], 1e-3 * expected[i] + 1e-3 * scale + 1e-6) << "channel " << i << " of pixel " << x << " " << y;
+}
+
+TEST(DeferredLight, IsTheSumOverAllLamps) {
+  Lab& lab = plaza_lab();
+  for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
+    FrameData data = lab.prepare(camera);
+    keep_lamps_only(data);
+    const GBuffer g = read_gbuffer(lab, data);
+    const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
+    const Texels hdr = lab.image(data, pass::deferred_light, resource::hdr);
+    uint32_t compared = 0;
+    for (int y = 1; y < hdr.height; y += 5)
+      for (int x = 2; x < hdr.width; x += 7) {
+        if (g.depth.at(x, y).x <= 0 || records[tile_of(x, y, frame::SHADE_TILE)].overflow > 0) continue;
+        const reference::SurfacePoint s = surface_at(g, data, x, y);
+        if (glm::dot(s.normal, s.eye) < 0.02) continue;
+        const glm::dvec3 emitted(g.emissive.at(x, y));
+        const glm::dvec3 expected = reference::lamps_radiance(s, data.lights) + emitted;
+        ASSERT_NO_FATAL_FAILURE(expect_close(hdr.at(x, y), expected, 1e-3, x, y)) << plaza().cameras[camera].name;
+        ++compared;
+      }
+    EXPECT_GT(compared, 300u);
+  }
+}
+
+uint32_t differing(const Texels& a, const Texels& b) {
+  uint32_t count = 0;
+  for (size_t i = 0; i < a.data.size(); ++i) count += a.data[i] != b.data[i];
+  return count;
+}
+
+TEST(LightPaths, MaskedByZBinsOrNotTheImageIsTheSame) {
+  Lab& lab = plaza_lab();
+  for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
+    const auto shade = [&](int32_t path) {
+      FrameData data = lab.prepare(camera);
+      data.view.light_path = static_cast<uint32_t>(path);
+      return lab.image(data, pass::transparent, resource::hdr);
+    };
+    const Texels flat = shade(frame::LIGHT_PATH_FLAT);
+    EXPECT_EQ(differing(flat, shade(frame::LIGHT_PATH_ZBIN)), 0u);
+    EXPECT_EQ(differing(flat, shade(frame::LIGHT_PATH_SLIDE)), 0u);
+    EXPECT_EQ(differing(flat, shade(frame::LIGHT_PATH_ALL)), 0u);
+  }
+}
+
+// What the shader does with the shadow map, in double. `certain` is false where a compare is too close to call.
+double sun_visibility(const Texels& shadow, const FrameData& data, const reference::SurfacePoint& s, bool& certain) {
+  const glm::dvec3 sun = reference::to_double(data.view.sun_direction);
+  const double slant = 1 - std::clamp(glm::dot(s.normal, sun), 0.0, 1.0);
+  const glm::dvec3 at = reference::to_double(data.view.world_to_sun) * glm::dvec4(s.position + s.normal * (data.view.sun_texel * (0.6 + 1.8 * slant)), 1);
+  if (std::abs(at.x) > 1 || std::abs(at.y) > 1) return 1;
+  const glm::dvec2 texel = (glm::dvec2(at) * 0.5 + 0.5) * static_cast<double>(shadow.width) - 0.5, base = glm::floor(texel), f = texel - base;
+  double sum = 0;
+  for (int k = 0; k < 4; ++k) {
+    const int u = std::clamp(static_cast<int>(base.x) + k % 2, 0, shadow.width - 1), v = std::clamp(static_cast<int>(base.y) + k / 2, 0, shadow.height - 1);
+    const double difference = at.z + 0.0004 - shadow.at(u, v).x;
+    if (std::abs(difference) < 2e-6) certain = false;
+    const double weight = (k % 2 == 0 ? 1 - f.x : f.x) * (k / 2 == 0 ? 1 - f.y : f.y);
+    sum += difference >= 0 ? weight : 0;
+  }
+  return sum;
+}
+
+TEST(DeferredLight, SunGoesThroughTheShadowMap) {
+  Lab& lab = plaza_lab();
+  FrameData data = lab.prepare(2);
+  data.view.ambient = {0, 0, 0};
+  data.view.light_count = 0;
+  data.lights.clear();
+  const GBuffer g = read_gbuffer(lab, data);
+  const Texels shadow = lab.image(data, pass::sun_shadow_props, resource::sun_shadow);
+  ASSERT_EQ(shadow.width, frame::SUN_SHADOW_SIZE);
+  const Texels hdr = lab.image(data, pass::deferred_light, resource::hdr);
+  uint32_t lit = 0, dark = 0;
+  for (int y = 0; y < hdr.height; y += 3)
+    for (int x = 0; x < hdr.width; x += 3) {
+      if (g.depth.at(x, y).x <= 0) continue;
+      const reference::SurfacePoint s = surface_at(g, data, x, y);
+      bool certain = glm::dot(s.normal, s.eye) > 0.02;
+      const double visible = sun_visibility(shadow, data, s, certain);
+      if (!certain) continue;
+      const glm::dvec3 expected = reference::reflected(s, reference::to_double(data.view.sun_direction), reference::to_double(data.view.sun_color) * visible);
+      // A float's rounding moves the bilinear weights by about a thousandth of a texel.
+      ASSERT_NO_FATAL_FAILURE(expect_close(hdr.at(x, y), expected + glm::dvec3(g.emissive.at(x, y)), 2e-3, x, y));
+      (visible > 0.5 ? lit : dark) += 1;
+    }
+  EXPECT_GT(lit, 200u);
+  EXPECT_GT(dark, 200u);
+}
+
+TEST(SunShadow, HoldsTheCasterNearestToTheSun) {
+  Scene scene = make_floor();
+  demo::MeshData block;
+  demo::add_box(block, {-1, 1, -1}, {1, 2, 1}, 10);
+  demo::Instance instance;
+  instance.mesh = demo::add_mesh(scene, "block", block);
+  scene.instances.push_back(instance);
+  scene.sun.center = {0, 0, 0};
+  scene.sun.radius = 8;
+  Lab lab(scene, 64, 64);
+  const Texels shadow = lab.image(lab.prepare(), pass::sun_shadow_props, resource::sun_shadow);
+  const float metre = 1 / (2 * 1.6f * 8);  // of reversed depth; the middle of the range lies at the centre
+  const int middle = shadow.width / 2;
+  EXPECT_NEAR(shadow.at(middle, middle).x, 0.5f + 2 * metre, 1e-5f) << "top of the block";
+  EXPECT_NEAR(shadow.at(middle + shadow.width / 4, middle).x, 0.5f, 1e-5f) << "the floor, four metres aside";
+  EXPECT_EQ(shadow.at(2, 2).x, 0) << "nothing";
+}
+
+}  // namespace
+}  // namespace rg::test
