@@ -4,7 +4,7 @@
 // who wrote what in which frame. Every (stage, access) pair is an agent with a cache of its own: writes stay dirty until an availability operation
 // names them, old lines stay readable until a visibility operation drops them. A layout transition reads and writes its range.
 //
-//   plan, 3 frames -> events -> partial order (execution dependencies alone) -> schedules -> found versions
+//   plan, frames  -> events -> partial order (execution dependencies alone) -> schedules -> found versions
 //   program        -> passes one after the other                             -> expected versions          the two must agree
 //
 // A schedule is a linear extension of the partial order. For every event there is one in which it comes as early as anything allows, so that
@@ -30,7 +30,7 @@ struct Placement {
 };
 
 struct MachineOptions {
-  uint32_t frames = 3;
+  uint32_t frames = 3;                  // at least; a history n needs n + 2
   std::vector<Placement> placement;     // by plan resource; empty: nothing is aliased. Its hand-offs are patched into the plan.
   std::vector<int64_t> extents;         // 3 values an extent; empty: the initial ones
   std::vector<uint64_t> conditions;     // by frame, the last one repeats: bits by dsl::ConditionId; empty: none hold
