@@ -15,10 +15,11 @@ struct Side {
   bool needs = false;    // as the later side: depends on contents
   std::vector<Event> events;
   bool skippable = false;  // every use may be skipped, so that what came before meets what comes after
+  Effect seen = {};        // as the later side: reads the contents are already visible to
 };
 
 const char* hazard_name(const Side& from, const Side& to, bool discards) {
-  if (!from.defined && from.events.empty()) return "first use";
+  if (!from.defined && !from.writes && from.effect.reads == 0) return "first use";
   if (discards && !to.needs) return from.writes ? "write after write, contents discarded" : "write after read, contents discarded";
   if (from.writes) return to.needs ? "read after write" : "write after write";
   return to.writes ? "write after read" : "layout";
@@ -48,7 +49,7 @@ class Synchroniser {
  private:
   Side side_of(uint32_t cell, const Epoch& epoch, bool defined) const {
     const bool skippable = std::all_of(epoch.events.begin(), epoch.events.end(), [&](const Event& event) { return may_skip(frame_, event.pass, frame_.cells[cell]); });
-    return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events, skippable};
+    return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events, skippable, {}};
   }
 
   bool is_image(uint32_t cell) const { return frame_.resource_of(cell).kind == dsl::ResourceKind::image; }
@@ -87,10 +88,11 @@ class Synchroniser {
       b.dst_stages = e.stages(), b.dst_accesses = e.reads | e.writes;
       return;
     }
-    // Contents made available to the readers before, not yet visible to the reads of this one.
-    const bool visible = (e.reads & ~from.effect.reads) == 0 && (e.read_stages & ~from.effect.read_stages) == 0;
+    // Contents made available before, not yet visible to all reads of this one.
+    const Stages unseen = (e.reads & ~to.seen.reads) ? e.read_stages : e.read_stages & ~to.seen.read_stages;
+    const bool visible = unseen == 0 || ((e.reads & ~from.effect.reads) == 0 && (e.read_stages & ~from.effect.read_stages) == 0);
     if (to.needs && from.defined && e.reads && !visible)
-      b.dst_stages = e.read_stages | earliest_stages(e.write_stages), b.dst_accesses = e.reads;
+      b.dst_stages = unseen | earliest_stages(e.write_stages), b.dst_accesses = e.reads;
     else
       b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
     // Without the readers in between this is a write after the write before them: made available by the barrier that serves them, not yet visible.
@@ -143,7 +145,6 @@ class Synchroniser {
   // History and persistent: the state at the end of one age is the state at the start of the next.
   void circle(const Line& line) {
     const auto& epochs = line.epochs;
-    const uint32_t ages = frame_.grids[frame_.cells[line.cell].resource].ages;
     for (size_t i = 0; i < epochs.size(); ++i) {
       const Epoch &from = epochs[(i + epochs.size() - 1) % epochs.size()], &to = epochs[i];
       if (continues(from, to)) continue;
@@ -151,15 +152,19 @@ class Synchroniser {
       b.wraps = i == 0 || from.age != to.age;
       add(to.first_segment, std::move(b));
     }
-    const Epoch& first = epochs.front();
-    const bool dead = first.age == 0 && !first.needs && ages > 1;
-    std::vector<const Epoch*> at_exit(ages, nullptr);
-    for (const Epoch& epoch : epochs) at_exit[epoch.age] = &epoch;
-    const Epoch* state = &epochs.back();  // of the oldest age that has any
+    state_circle(line);
+  }
+
+  // At each age's exit the last epoch so far with all reads it continues; that is the state at the entry of the next age.
+  void state_circle(const Line& line) {
+    const uint32_t ages = frame_.grids[frame_.cells[line.cell].resource].ages;
+    const bool dead = line.epochs.front().age == 0 && !line.epochs.front().needs && ages > 1;
+    Side state = with_continued_reads(line, 0);
+    size_t next = 0;
     for (uint32_t age = 0; age < ages; ++age) {
-      boundary(sync_.entry, cell_at(line, age), state->covered, state->writes, state->effect.layout, age == 0 && dead);
-      if (at_exit[age]) state = at_exit[age];
-      boundary(sync_.exit, cell_at(line, age), state->covered, state->writes, state->effect.layout, age + 1 == ages && dead);
+      boundary(sync_.entry, cell_at(line, age), state.effect, state.writes, state.effect.layout, age == 0 && dead);
+      for (; next < line.epochs.size() && line.epochs[next].age == age; ++next) state = with_continued_reads(line, next + 1);
+      boundary(sync_.exit, cell_at(line, age), state.effect, state.writes, state.effect.layout, age + 1 == ages && dead);
     }
   }
 
@@ -184,10 +189,18 @@ class Synchroniser {
     Line whole = line;
     cover_after(whole, before, after);
     const Epoch& first = whole.epochs.front();
-    if (!is_visible(before, first)) add(first.first_segment, connect(line.cell, before, side_of(line.cell, first, true)));
+    if (!is_visible(before, first)) {
+      Side to = side_of(line.cell, first, true);
+      if (before.defined && !before.writes) to.seen = before.effect;
+      CellBarrier b = connect(line.cell, before, to);
+      b.wraps = true;
+      add(first.first_segment, std::move(b));
+    }
     const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
     const Epoch& last = whole.epochs.back();
-    const Side next{after, after.writes != 0, true, true, {}, false};
+    Side next{after, after.writes != 0, true, true, {}, false, {}};
+    const auto writes = [](const Epoch& epoch) { return epoch.writes; };
+    if (before.defined && !before.writes && std::none_of(whole.epochs.begin(), whole.epochs.end(), writes)) next.seen = before.effect;
     const bool stays = resource.after.role == dsl::Role::undefined || continues_after(last, after);
     if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, defined), next)});
     boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
@@ -199,12 +212,14 @@ class Synchroniser {
   // Contents of unknown state are worthless. A presented image is handed over by a semaphore, waited for at its first use; another one is ordered
   // after whatever `after` says was done with it.
   Side state_before(const dsl::Resource& resource, uint32_t aspect, const Epoch& first) const {
-    Side side{effect_of(resource.before, aspect), false, true, true, {}, false};
+    Side side{effect_of(resource.before, aspect), false, true, true, {}, false, {}};
     side.writes = side.effect.writes != 0;
+    side.events = {{0, side.effect.stages(), UINT32_MAX}};
     if (resource.before.role != dsl::Role::undefined) return side;
     side.defined = false;
     const Effect after = effect_of(resource.after, aspect);
     side.effect = {after.stages() ? after.stages() : first.effect.stages(), 0, 0, 0, Layout::undefined};
+    side.events = {{0, side.effect.stages(), UINT32_MAX}};
     return side;
   }
 
@@ -229,7 +244,7 @@ class Synchroniser {
     const Epoch& last = line.epochs.back();
     Effect host;
     host.read_stages = stage::host, host.reads = access::host_read;
-    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false})});
+    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
     boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
     boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
   }
