@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -11,6 +12,22 @@
 #include "dsl/source.h"
 
 namespace rg::dsl::ast {
+
+// An optional value that costs a pointer where it is absent: most parts of most nodes are.
+template <class T>
+class Boxed {
+ public:
+  Boxed() = default;
+  Boxed(T value) : value_(std::make_unique<T>(std::move(value))) {}
+  explicit operator bool() const { return value_ != nullptr; }
+  T& operator*() { return *value_; }
+  const T& operator*() const { return *value_; }
+  T* operator->() { return value_.get(); }
+  const T* operator->() const { return value_.get(); }
+
+ private:
+  std::unique_ptr<T> value_;
+};
 
 struct Name {
   std::string_view text;
@@ -43,7 +60,7 @@ struct Expr {
 // `culling.Light`, `u32`, with `[n]` or `[]` behind it
 struct TypeName {
   Expr name;                  // name or member
-  std::optional<Expr> count;  // [n]
+  Boxed<Expr> count;  // [n]
   bool unsized = false;       // []
   Span span;
 };
@@ -110,21 +127,21 @@ struct EngineSetDeclaration {
 // `sampled(clamp) in fragment, compute`
 struct Usage {
   Name role;
-  std::optional<Expr> sampler;
+  Boxed<Expr> sampler;
   std::vector<Name> stages;
   Span span;
 };
 struct ResourceDeclaration {
   bool is_buffer = false;
   Name name;
-  std::optional<Expr> index;  // `image pyramid[i]`
+  Boxed<Expr> index;  // `image pyramid[i]`
   Name format;                // images
-  std::optional<Expr> size;   // images
+  Boxed<Expr> size;   // images
   TypeName element;           // buffers
   std::vector<Setting> settings;
-  std::optional<Expr> clear;  // of `init clear V`
+  Boxed<Expr> clear;  // of `init clear V`
   bool has_init = false;
-  std::optional<Usage> ready, after;
+  Boxed<Usage> ready, after;
   bool wrote = false;         // `written as`, not `ready as`
   bool has_error = false;
   Span span;
@@ -146,9 +163,9 @@ struct AccessStatement {
   Verb verb = Verb::read;
   Name rename;
   Expr target;
-  std::optional<Usage> usage;
-  std::optional<Expr> clear;
-  std::optional<BlendOption> blend;
+  Boxed<Usage> usage;
+  Boxed<Expr> clear;
+  Boxed<BlendOption> blend;
   bool covers = false, disjoint = false, readonly = false;
   Span span;
 };
@@ -164,24 +181,24 @@ struct ShaderStatement {
 };
 struct DispatchStatement {
   Name how;  // over, groups, indirect, host
-  std::optional<Expr> size;
+  Boxed<Expr> size;
   Span span;
 };
 struct PerDraw {
   Name name;
-  std::optional<Expr> type;                       // by name
-  std::optional<StructDeclaration> declaration;   // or in place
+  Boxed<Expr> type;                       // by name
+  Boxed<StructDeclaration> declaration;   // or in place
 };
 struct DrawStatement {
   bool host = false, indirect = false, indexed = false;
-  std::optional<Expr> vertices, instances, arguments, max_draws, counts;
-  std::optional<PerDraw> per_draw;
+  Boxed<Expr> vertices, instances, arguments, max_draws, counts;
+  Boxed<PerDraw> per_draw;
   std::vector<Expr> vertex;
   Span span;
 };
 struct TransferStatement {
   Name verb;  // copy, blit, clear, fill, update, resolve
-  std::optional<Expr> src, dst, value;
+  Boxed<Expr> src, dst, value;
   bool linear = false;
   Span span;
 };
@@ -191,19 +208,19 @@ struct HostTransfer {
 };
 struct ParamsStatement {
   Name name;
-  std::optional<Expr> type;
+  Boxed<Expr> type;
   Span span;
 };
 struct WordStatement {  // state NAME, bind NAME, after PASS, keep
   Name word;
-  std::optional<Expr> value;
+  Boxed<Expr> value;
   Span span;
 };
 using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
 
 struct PassDeclaration {
   Name name;
-  std::optional<Expr> index;
+  Boxed<Expr> index;
   Name kind, queue;
   bool queue_may = false;
   std::vector<Statement> statements;
@@ -218,7 +235,7 @@ struct Assertion {
   Name fact;
   std::vector<Expr> arguments;
   Name comparison;
-  std::optional<Expr> value;
+  Boxed<Expr> value;
   Name unit;
   std::string_view text;
   Span span;

@@ -115,7 +115,7 @@ void visit(Builder& at, const ast::DispatchStatement& node) {
   dispatch.arguments = add_indirect(at, *node.size, kDispatchBytes).value_or(kAll);
 }
 
-ExprId count_expr(Builder& at, const std::optional<ast::Expr>& expr) {
+ExprId count_expr(Builder& at, const ast::Boxed<ast::Expr>& expr) {
   if (!expr) return to_expr(at.checker, {1, {}});
   const Value value = evaluate_expr(at.checker, &at.scope, at.scope.module, *expr);
   if (!value.ok()) return at.out.dropped = at.scope.incomplete = true, ExprId{};

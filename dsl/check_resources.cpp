@@ -401,7 +401,7 @@ ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& exp
   return out;
 }
 
-std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::optional<ast::Expr>& index) {
+std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const ast::Boxed<ast::Expr>& index) {
   std::string full = scope.prefix + std::string(name.text);
   if (!index) return full;
   const auto value = evaluate_integer(checker, &scope, scope.module, *index, 0, UINT32_MAX);

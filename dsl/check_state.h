@@ -170,7 +170,7 @@ std::optional<Compare> find_compare(std::string_view word);
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
 void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDeclaration& graph);
 ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects);
-std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::optional<ast::Expr>& index);
+std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const ast::Boxed<ast::Expr>& index);
 std::optional<Role> find_role(std::string_view word);
 uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
 

@@ -28,7 +28,7 @@ std::string text(const ast::Expr& expr) {
   return out + ")";
 }
 
-std::string text(const std::optional<ast::Expr>& expr) { return expr ? " " + text(*expr) : ""; }
+std::string text(const ast::Boxed<ast::Expr>& expr) { return expr ? " " + text(*expr) : ""; }
 
 std::string text(const TypeName& type) {
   std::string out = text(type.name);
