@@ -34,9 +34,12 @@ uint32_t aspects_seen(dsl::Role role, uint32_t aspects) {
     case dsl::Role::depth_readonly:
     case dsl::Role::sampled:
     case dsl::Role::storage:
-    case dsl::Role::input: return aspect_depth;
-    case dsl::Role::stencil: return aspects & aspect_stencil;
-    default: return aspects;
+    case dsl::Role::input:
+      return aspect_depth;
+    case dsl::Role::stencil:
+      return aspects & aspect_stencil;
+    default:
+      return aspects;
   }
 }
 
@@ -125,8 +128,8 @@ Region region_of(const dsl::Program& program, const dsl::Graph& graph, const Cel
   const Piece& whole = cells.resources[access.resource.value].whole;
   const dsl::Range& range = access.range;
   if (graph.resources[access.resource].kind == dsl::ResourceKind::image)
-    return subresources(whole, range.aspects ? range.aspects : aspects_seen(access.role, whole.aspect), range.mip, is_attachment(access.role) ? 1 : range.mips,
-                        range.layer, range.layers);
+    return subresources(whole, range.aspects ? range.aspects : aspects_seen(access.role, whole.aspect), range.mip,
+                        is_attachment(access.role) ? 1 : range.mips, range.layer, range.layers);
   const uint64_t begin = range.offset.valid() ? static_cast<uint64_t>(length(program, range.offset, cells.extents)) : 0;
   const uint64_t end = range.size.valid() ? begin + static_cast<uint64_t>(length(program, range.size, cells.extents)) : whole.x1;
   return by_aspect(1, begin, std::min(end, whole.x1), 0, 1);
@@ -151,7 +154,8 @@ Pieces pieces_in(const ResourceCells& resource, const Region& region) {
   for (uint32_t i = 0; i < resource.pieces.size(); ++i) {
     const Piece& piece = resource.pieces[i];
     for (const Piece& part : region)
-      if (piece.aspect == part.aspect && piece.x0 >= part.x0 && piece.x1 <= part.x1 && piece.y0 >= part.y0 && piece.y1 <= part.y1) result.push_back(i);
+      if (piece.aspect == part.aspect && piece.x0 >= part.x0 && piece.x1 <= part.x1 && piece.y0 >= part.y0 && piece.y1 <= part.y1)
+        result.push_back(i);
   }
   return result;
 }

@@ -22,20 +22,20 @@ using Pieces = std::vector<uint32_t>;
 
 struct ResourceCells {
   bool image = false;
-  bool exists = false;        // has a plan resource
+  bool exists = false;  // has a plan resource
   uint32_t plan_resource = kNone;
-  Piece whole;                // aspect holds all bits
+  Piece whole;  // aspect holds all bits
   uint32_t copies = 1;
-  uint32_t first_cell = 0;    // physical
+  uint32_t first_cell = 0;  // physical
   std::vector<Piece> pieces;
 };
 
 struct Cells {
   std::vector<int64_t> extents;
-  std::vector<ResourceCells> resources;        // by program resource
-  std::vector<uint32_t> resource_of;           // by physical cell
-  std::vector<uint32_t> aspect_of;             // by physical cell: 1 for buffers
-  std::vector<std::vector<uint32_t>> rivals;   // by physical cell: cells of other resources in the same memory
+  std::vector<ResourceCells> resources;       // by program resource
+  std::vector<uint32_t> resource_of;          // by physical cell
+  std::vector<uint32_t> aspect_of;            // by physical cell: 1 for buffers
+  std::vector<std::vector<uint32_t>> rivals;  // by physical cell: cells of other resources in the same memory
   uint32_t count = 0;
 };
 

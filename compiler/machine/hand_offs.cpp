@@ -5,7 +5,9 @@
 namespace rg::machine {
 
 PatchedPlan::PatchedPlan(const Plan& plan, const std::vector<Placement>& placement)
-    : plan_(plan), groups_(plan.groups.begin(), plan.groups.end()), memory_barriers_(plan.memory_barriers.begin(), plan.memory_barriers.end()),
+    : plan_(plan),
+      groups_(plan.groups.begin(), plan.groups.end()),
+      memory_barriers_(plan.memory_barriers.begin(), plan.memory_barriers.end()),
       image_barriers_(plan.image_barriers.begin(), plan.image_barriers.end()) {
   if (placement.empty()) return;
   std::vector<alias::Placed> placed;
@@ -14,7 +16,8 @@ PatchedPlan::PatchedPlan(const Plan& plan, const std::vector<Placement>& placeme
   alias::find_hand_offs(plan, placed, hand_offs);
   for (const alias::GroupPatch& patch : hand_offs.groups) {
     BarrierGroup& group = groups_[patch.group];
-    const std::vector<MemoryBarrier> own(memory_barriers_.begin() + group.first_memory, memory_barriers_.begin() + group.first_memory + group.memory_count);
+    const std::vector<MemoryBarrier> own(memory_barriers_.begin() + group.first_memory,
+                                         memory_barriers_.begin() + group.first_memory + group.memory_count);
     group.first_memory = static_cast<Index>(memory_barriers_.size());
     ++group.memory_count;
     memory_barriers_.insert(memory_barriers_.end(), own.begin(), own.end());

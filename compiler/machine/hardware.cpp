@@ -6,9 +6,11 @@ namespace {
 using dsl::Mode;
 using dsl::Role;
 
-constexpr Stages kGraphics[] = {  // in logical order
-    stage::draw_indirect,       stage::index_input,     stage::vertex_attribute_input, stage::vertex_shader,       stage::tess_control_shader,     stage::tess_eval_shader,
-    stage::geometry_shader, stage::early_fragment_tests, stage::fragment_shader,   stage::late_fragment_tests, stage::color_attachment_output,
+constexpr Stages kGraphics[] = {
+    // in logical order
+    stage::draw_indirect,       stage::index_input,         stage::vertex_attribute_input,  stage::vertex_shader,
+    stage::tess_control_shader, stage::tess_eval_shader,    stage::geometry_shader,         stage::early_fragment_tests,
+    stage::fragment_shader,     stage::late_fragment_tests, stage::color_attachment_output,
 };
 constexpr Stages kComputePipe[] = {stage::draw_indirect, stage::compute_shader};
 constexpr Stages kTransfers = stage::copy | stage::resolve | stage::blit | stage::clear;
@@ -21,10 +23,11 @@ constexpr Stages all_of(const Stages (&pipe)[11]) {
 constexpr Stages kAllGraphics = all_of(kGraphics);
 constexpr Stages kAllCommands = kAllGraphics | stage::compute_shader | kTransfers;
 
-constexpr Accesses kReads = access::indirect_command_read | access::index_read | access::vertex_attribute_read | access::uniform_read | access::input_attachment_read |
-                            access::color_attachment_read | access::depth_stencil_attachment_read | access::transfer_read | access::host_read |
-                            access::shader_sampled_read | access::shader_storage_read;
-constexpr Accesses kWrites = access::color_attachment_write | access::depth_stencil_attachment_write | access::transfer_write | access::host_write | access::shader_storage_write;
+constexpr Accesses kReads = access::indirect_command_read | access::index_read | access::vertex_attribute_read | access::uniform_read |
+                            access::input_attachment_read | access::color_attachment_read | access::depth_stencil_attachment_read |
+                            access::transfer_read | access::host_read | access::shader_sampled_read | access::shader_storage_read;
+constexpr Accesses kWrites = access::color_attachment_write | access::depth_stencil_attachment_write | access::transfer_write | access::host_write |
+                             access::shader_storage_write;
 
 template <size_t N>
 Stages earlier_in(const Stages (&pipe)[N], Stages stages) {
@@ -44,10 +47,13 @@ Stages later_in(const Stages (&pipe)[N], Stages stages) {
 }
 
 std::vector<Stages> shader_stages(uint32_t bits) {
-  constexpr std::pair<uint32_t, Stages> kNames[] = {
-      {dsl::stage_vertex, stage::vertex_shader},     {dsl::stage_tess_control, stage::tess_control_shader}, {dsl::stage_tess_eval, stage::tess_eval_shader},
-      {dsl::stage_geometry, stage::geometry_shader}, {dsl::stage_fragment, stage::fragment_shader},         {dsl::stage_compute, stage::compute_shader},
-      {dsl::stage_host, stage::host}};
+  constexpr std::pair<uint32_t, Stages> kNames[] = {{dsl::stage_vertex, stage::vertex_shader},
+                                                    {dsl::stage_tess_control, stage::tess_control_shader},
+                                                    {dsl::stage_tess_eval, stage::tess_eval_shader},
+                                                    {dsl::stage_geometry, stage::geometry_shader},
+                                                    {dsl::stage_fragment, stage::fragment_shader},
+                                                    {dsl::stage_compute, stage::compute_shader},
+                                                    {dsl::stage_host, stage::host}};
   std::vector<Stages> stages;
   for (const auto& [bit, stage] : kNames)
     if (bits & bit) stages.push_back(stage);
@@ -84,32 +90,50 @@ std::vector<Touch> shader_touches(uint32_t stages, Accesses read, Accesses write
 
 std::vector<Touch> touches_as(Role role, bool reads, bool writes, uint32_t stages, bool command) {
   switch (role) {
-    case Role::sampled: return shader_touches(stages, access::shader_sampled_read, 0);
-    case Role::uniform: return shader_touches(stages, access::uniform_read, 0);
-    case Role::storage: return shader_touches(stages, reads ? access::shader_storage_read : 0, writes ? access::shader_storage_write : 0);
-    case Role::input: return simple(stage::fragment_shader, access::input_attachment_read, 0);
-    case Role::vertex: return simple(stage::vertex_attribute_input, access::vertex_attribute_read, 0);
-    case Role::index: return simple(stage::index_input, access::index_read, 0);
-    case Role::indirect: return simple(stage::draw_indirect, access::indirect_command_read, 0);
-    case Role::color: return simple(stage::color_attachment_output, reads ? access::color_attachment_read : 0, writes ? access::color_attachment_write : 0);
+    case Role::sampled:
+      return shader_touches(stages, access::shader_sampled_read, 0);
+    case Role::uniform:
+      return shader_touches(stages, access::uniform_read, 0);
+    case Role::storage:
+      return shader_touches(stages, reads ? access::shader_storage_read : 0, writes ? access::shader_storage_write : 0);
+    case Role::input:
+      return simple(stage::fragment_shader, access::input_attachment_read, 0);
+    case Role::vertex:
+      return simple(stage::vertex_attribute_input, access::vertex_attribute_read, 0);
+    case Role::index:
+      return simple(stage::index_input, access::index_read, 0);
+    case Role::indirect:
+      return simple(stage::draw_indirect, access::indirect_command_read, 0);
+    case Role::color:
+      return simple(stage::color_attachment_output, reads ? access::color_attachment_read : 0, writes ? access::color_attachment_write : 0);
     case Role::depth:
-    case Role::stencil: return depth_touches(reads, writes);
-    case Role::depth_readonly: return depth_touches(true, false);
+    case Role::stencil:
+      return depth_touches(reads, writes);
+    case Role::depth_readonly:
+      return depth_touches(true, false);
     case Role::resolve_src:
       return command ? simple(stage::resolve, access::transfer_read, 0) : simple(stage::color_attachment_output, access::color_attachment_read, 0);
     case Role::resolve_dst:
       return command ? simple(stage::resolve, 0, access::transfer_write) : simple(stage::color_attachment_output, 0, access::color_attachment_write);
-    case Role::copy_src: return simple(stage::copy, access::transfer_read, 0);
+    case Role::copy_src:
+      return simple(stage::copy, access::transfer_read, 0);
     case Role::copy_dst:
-    case Role::update_dst: return simple(stage::copy, 0, access::transfer_write);
-    case Role::blit_src: return simple(stage::blit, access::transfer_read, 0);
-    case Role::blit_dst: return simple(stage::blit, 0, access::transfer_write);
+    case Role::update_dst:
+      return simple(stage::copy, 0, access::transfer_write);
+    case Role::blit_src:
+      return simple(stage::blit, access::transfer_read, 0);
+    case Role::blit_dst:
+      return simple(stage::blit, 0, access::transfer_write);
     case Role::clear_dst:
-    case Role::fill_dst: return simple(stage::clear, 0, access::transfer_write);
-    case Role::host_read: return simple(stage::host, access::host_read, 0);
-    case Role::host_write: return simple(stage::host, 0, access::host_write);
+    case Role::fill_dst:
+      return simple(stage::clear, 0, access::transfer_write);
+    case Role::host_read:
+      return simple(stage::host, access::host_read, 0);
+    case Role::host_write:
+      return simple(stage::host, 0, access::host_write);
     case Role::present:
-    case Role::undefined: break;
+    case Role::undefined:
+      break;
   }
   return {};
 }
@@ -161,11 +185,16 @@ std::vector<Touch> touches_of(const dsl::BoundaryState& state) {
 Layout layout_of_aspect(Layout layout, uint32_t aspect) {
   const auto of = [&](Layout depth, Layout stencil) { return aspect == aspect_depth ? depth : aspect == aspect_stencil ? stencil : layout; };
   switch (layout) {
-    case Layout::depth_stencil_attachment: return of(Layout::depth_attachment, Layout::stencil_attachment);
-    case Layout::depth_stencil_read_only: return of(Layout::depth_read_only, Layout::stencil_read_only);
-    case Layout::depth_read_only_stencil_attachment: return of(Layout::depth_read_only, Layout::stencil_attachment);
-    case Layout::depth_attachment_stencil_read_only: return of(Layout::depth_attachment, Layout::stencil_read_only);
-    default: return layout;
+    case Layout::depth_stencil_attachment:
+      return of(Layout::depth_attachment, Layout::stencil_attachment);
+    case Layout::depth_stencil_read_only:
+      return of(Layout::depth_read_only, Layout::stencil_read_only);
+    case Layout::depth_read_only_stencil_attachment:
+      return of(Layout::depth_read_only, Layout::stencil_attachment);
+    case Layout::depth_attachment_stencil_read_only:
+      return of(Layout::depth_attachment, Layout::stencil_read_only);
+    default:
+      return layout;
   }
 }
 
@@ -179,21 +208,30 @@ bool permits(Layout layout, Role role, bool writes) {
   if (layout == Layout::general) return true;
   switch (role) {
     case Role::sampled:
-    case Role::input: return read_only;
-    case Role::color: return layout == Layout::color_attachment;
+    case Role::input:
+      return read_only;
+    case Role::color:
+      return layout == Layout::color_attachment;
     case Role::depth:
-    case Role::stencil: return tests || (!writes && read_only && layout != Layout::shader_read_only);
-    case Role::depth_readonly: return tests || (read_only && layout != Layout::shader_read_only);
-    case Role::resolve_src: return layout == Layout::transfer_src || layout == Layout::color_attachment || tests;
-    case Role::resolve_dst: return layout == Layout::transfer_dst || layout == Layout::color_attachment || tests;
+    case Role::stencil:
+      return tests || (!writes && read_only && layout != Layout::shader_read_only);
+    case Role::depth_readonly:
+      return tests || (read_only && layout != Layout::shader_read_only);
+    case Role::resolve_src:
+      return layout == Layout::transfer_src || layout == Layout::color_attachment || tests;
+    case Role::resolve_dst:
+      return layout == Layout::transfer_dst || layout == Layout::color_attachment || tests;
     case Role::copy_src:
-    case Role::blit_src: return layout == Layout::transfer_src;
+    case Role::blit_src:
+      return layout == Layout::transfer_src;
     case Role::copy_dst:
     case Role::blit_dst:
     case Role::clear_dst:
     case Role::fill_dst:
-    case Role::update_dst: return layout == Layout::transfer_dst;
-    default: return false;
+    case Role::update_dst:
+      return layout == Layout::transfer_dst;
+    default:
+      return false;
   }
 }
 

@@ -22,7 +22,8 @@ struct Run {
   bool full() const { return found.size() >= subject.options.max_divergences; }
 
   void report(Divergence divergence) {
-    const bool known = std::any_of(found.begin(), found.end(), [&](const Divergence& each) { return each.pass == divergence.pass && each.resource == divergence.resource; });
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](const Divergence& each) { return each.pass == divergence.pass && each.resource == divergence.resource; });
     if (!known && !full()) found.push_back(std::move(divergence));
   }
 
@@ -159,12 +160,12 @@ std::vector<Divergence> answer(const Question& question, const MachineOptions& o
 
 std::string text(const Divergence& divergence) {
   const std::string who = divergence.pass.empty() ? "the observer" : "`" + divergence.pass + "`";
-  return fmt::format("{} finds {} in `{}` where program order gives {} (frame {}); {}", who, divergence.found, divergence.resource, divergence.expected,
-                     divergence.frame, divergence.schedule);
+  return fmt::format("{} finds {} in `{}` where program order gives {} (frame {}); {}", who, divergence.found, divergence.resource,
+                     divergence.expected, divergence.frame, divergence.schedule);
 }
 
-std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
-                                          const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource,
+std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration,
+                                          const Plan& plan, const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource,
                                           const MachineOptions& options) {
   const PatchedPlan patched(plan, options.placement);
   const Question question{program, program.graphs[graph], configuration, patched.plan(), program_pass, program_resource};

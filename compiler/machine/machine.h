@@ -40,7 +40,7 @@ struct MachineOptions {
 };
 
 struct Divergence {
-  std::string pass, resource;   // who read the wrong version; pass empty: what is left when all is done
+  std::string pass, resource;  // who read the wrong version; pass empty: what is left when all is done
   uint32_t frame = 0;
   std::string expected, found;  // "`gbuffer` in frame 1", "poison", "two unordered writes", ...
   std::string schedule;         // the order and the caches that show it, one line
@@ -50,8 +50,8 @@ std::string text(const Divergence& divergence);
 // Empty: no schedule tried gives any read another version than program order does. At most one divergence a (pass, resource).
 // `configuration`: one value a feature. `program_pass[i]`, `program_resource[i]`: the program rows of plan pass and resource i.
 // O(e^2) event executions for e events, e about frames * (accesses + barriers).
-std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
-                                          const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource,
+std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration,
+                                          const Plan& plan, const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource,
                                           const MachineOptions& options = {});
 
 }  // namespace rg::machine

@@ -32,9 +32,7 @@ struct Execution {
 
   Line& line(uint32_t agent, uint32_t cell) const { return memory.lines[size_t{agent} * cells.count + cell]; }
 
-  bool in_layout(uint32_t cell) const {
-    return !event.image || memory.layouts[cell] == layout_of_aspect(event.layout, cells.aspect_of[cell]);
-  }
+  bool in_layout(uint32_t cell) const { return !event.image || memory.layouts[cell] == layout_of_aspect(event.layout, cells.aspect_of[cell]); }
   bool same_memory(uint32_t a, uint32_t b) const {
     return a == b || std::find(cells.rivals[a].begin(), cells.rivals[a].end(), b) != cells.rivals[a].end();
   }
@@ -61,9 +59,7 @@ struct Execution {
     }
   }
 
-  bool in_this_pass(uint32_t other) const {
-    return timeline.events[other].pass == event.pass && timeline.events[other].frame == event.frame;
-  }
+  bool in_this_pass(uint32_t other) const { return timeline.events[other].pass == event.pass && timeline.events[other].frame == event.frame; }
 
   // Two writes may land in any order unless the first was made available, and made visible to the second or seen by another pass.
   bool races(uint32_t cell) const {
@@ -126,8 +122,10 @@ struct Execution {
     for (const Dirty& write : memory.dirty) {
       const Event& writer = timeline.events[write.event];
       const bool earlier = write.event < index && writer.queue == event.queue;
-      if (earlier && ((event.src_agents >> writer.agent) & 1) && covers(write.cell)) store(write);
-      else kept.push_back(write);
+      if (earlier && ((event.src_agents >> writer.agent) & 1) && covers(write.cell))
+        store(write);
+      else
+        kept.push_back(write);
     }
     memory.dirty = std::move(kept);
   }
@@ -137,9 +135,12 @@ struct Execution {
     const Layout from = layout_of_aspect(event.old_layout, aspect), to = layout_of_aspect(event.new_layout, aspect);
     Layout& layout = memory.layouts[cell];
     if (from == to && from == layout) return;
-    if (from == Layout::undefined) store({index, cell, {version::poison, 0}});
-    else if (from != layout) store({index, cell, {version::wrong_layout, 0}});
-    else replace(memory, cell, memory.contents[cell], false);
+    if (from == Layout::undefined)
+      store({index, cell, {version::poison, 0}});
+    else if (from != layout)
+      store({index, cell, {version::wrong_layout, 0}});
+    else
+      replace(memory, cell, memory.contents[cell], false);
     for (uint32_t agent = 0; agent < timeline.agents.size(); ++agent) line(agent, cell).version = {version::wrong_layout, 0};
     const bool raced = std::any_of(memory.dirty.begin(), memory.dirty.end(), [&](const Dirty& write) { return same_memory(write.cell, cell); });
     layout = raced ? kTornLayout : to;
@@ -188,10 +189,14 @@ Memory initial_memory(const Subject& subject, const Timeline& timeline) {
 void execute(Memory& memory, const Cells& cells, const Timeline& timeline, uint32_t event, Caches caches) {
   const Execution execution{memory, cells, timeline, event, caches == Caches::hoard};
   switch (execution.event.kind) {
-    case EventKind::read: return execution.read();
-    case EventKind::write: return execution.write();
-    case EventKind::barrier: return execution.synchronise();
-    case EventKind::bring: return execution.bring();
+    case EventKind::read:
+      return execution.read();
+    case EventKind::write:
+      return execution.write();
+    case EventKind::barrier:
+      return execution.synchronise();
+    case EventKind::bring:
+      return execution.bring();
   }
 }
 

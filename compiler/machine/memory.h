@@ -15,8 +15,8 @@ enum class Caches : uint8_t {
 // A write that is in some cache and not in memory.
 struct Dirty {
   uint32_t event = 0, cell = 0;
-  Version version;          // of a sharing write: what it leaves if it comes right after the version it expects
-  uint64_t addend = 0;      // of a sharing write
+  Version version;      // of a sharing write: what it leaves if it comes right after the version it expects
+  uint64_t addend = 0;  // of a sharing write
   bool shares = false;
 };
 
@@ -27,19 +27,19 @@ struct Mismatch {
 
 struct Line {
   Version version;
-  uint32_t store = 0;       // which store to the cell it shows
+  uint32_t store = 0;  // which store to the cell it shows
 };
 
 struct Memory {
   // By cell.
   std::vector<Version> contents;
   std::vector<Layout> layouts;
-  std::vector<uint32_t> stores;    // how often contents changed
-  std::vector<uint32_t> seen_by;   // event that read the contents as they are; kNone: nobody
-  std::vector<bool> shared;        // contents come from a sharing write
+  std::vector<uint32_t> stores;   // how often contents changed
+  std::vector<uint32_t> seen_by;  // event that read the contents as they are; kNone: nobody
+  std::vector<bool> shared;       // contents come from a sharing write
 
-  std::vector<Line> lines;         // by agent, cell
-  std::vector<Dirty> dirty;        // in the order executed
+  std::vector<Line> lines;   // by agent, cell
+  std::vector<Dirty> dirty;  // in the order executed
   std::vector<Mismatch> mismatches;
 };
 

@@ -24,7 +24,7 @@ struct Interpreter {
   const MachineOptions& options;
   Reference result = {};
   std::vector<std::vector<Version>> now = {};
-  std::vector<uint32_t> group = {};        // by resource: counts groups of commuting neighbours this frame
+  std::vector<uint32_t> group = {};  // by resource: counts groups of commuting neighbours this frame
   std::vector<bool> group_open = {};
 
   bool holds(const dsl::Guard& guard) const {
@@ -109,12 +109,18 @@ struct Interpreter {
 
 std::string Reference::name(Version version) const {
   switch (version.base) {
-    case version::undefined: return "undefined contents";
-    case version::poison: return "poison";
-    case version::torn: return "two unordered writes";
-    case version::wrong_layout: return "contents in the wrong layout";
-    case version::partial: return "an unfinished write";
-    default: break;
+    case version::undefined:
+      return "undefined contents";
+    case version::poison:
+      return "poison";
+    case version::torn:
+      return "two unordered writes";
+    case version::wrong_layout:
+      return "contents in the wrong layout";
+    case version::partial:
+      return "an unfinished write";
+    default:
+      break;
   }
   const auto found = names.find(version.base);
   const std::string base = found == names.end() ? "an unknown write" : found->second;

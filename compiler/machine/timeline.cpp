@@ -22,9 +22,13 @@ struct Unroller {
   const Subject& in;
   Timeline out = {};
   uint32_t frame = 0, queue = 0;
-  std::vector<std::vector<uint32_t>> left_by = {};      // by program resource: events of the engine after the last frame
-  struct Signalled { Index queue; uint64_t value; uint32_t event; };
-  std::vector<Signalled> signals = {};                  // of this frame
+  std::vector<std::vector<uint32_t>> left_by = {};  // by program resource: events of the engine after the last frame
+  struct Signalled {
+    Index queue;
+    uint64_t value;
+    uint32_t event;
+  };
+  std::vector<Signalled> signals = {};  // of this frame
 
   const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
   const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
@@ -84,7 +88,8 @@ struct Unroller {
     const Rendering& rendering = in.plan.renderings[pass.rendering];
     const auto matches = [&](const Attachment& attachment) {
       const uint32_t resource = in.program_resource[attachment.ref.resource];
-      return resource == access.resource.value && attachment.ref.age == access.age && intersects(region_of(cells_of(resource), attachment.range), region);
+      return resource == access.resource.value && attachment.ref.age == access.age &&
+             intersects(region_of(cells_of(resource), attachment.range), region);
     };
     for (const Attachment& color : in.plan.attachments.subspan(rendering.first_color, rendering.color_count))
       if (access.role == dsl::Role::color && matches(color)) return &color;
@@ -97,7 +102,8 @@ struct Unroller {
     Layout layout = kUnusable;
     for (const Access& listed : in.plan.accesses.subspan(pass.first_access, pass.access_count)) {
       const uint32_t resource = in.program_resource[listed.ref.resource];
-      if (resource != access.resource.value || listed.ref.age != access.age || !intersects(region_of(cells_of(resource), listed.range), region)) continue;
+      if (resource != access.resource.value || listed.ref.age != access.age || !intersects(region_of(cells_of(resource), listed.range), region))
+        continue;
       if (layout == kUnusable || listed.writes == (access.mode != dsl::Mode::read)) layout = listed.layout;
     }
     return layout;
@@ -112,7 +118,8 @@ struct Unroller {
     return access.mode != dsl::Mode::read && attachment.store != StoreOp::store;
   }
   static bool rewrites(const dsl::Access& access, const Attachment& attachment) {
-    return access.mode == dsl::Mode::read && (attachment.load == LoadOp::clear || attachment.load == LoadOp::dont_care || attachment.store != StoreOp::none);
+    return access.mode == dsl::Mode::read &&
+           (attachment.load == LoadOp::clear || attachment.load == LoadOp::dont_care || attachment.store != StoreOp::none);
   }
 
   static bool destroys(const Attachment& attachment) { return attachment.load != LoadOp::load || attachment.store == StoreOp::dont_care; }
@@ -177,7 +184,8 @@ struct Unroller {
 
   void add_group(Index index) {
     const BarrierGroup& group = in.plan.groups[index];
-    for (const MemoryBarrier& barrier : in.plan.memory_barriers.subspan(group.first_memory, group.memory_count)) add(barrier_event(barrier, index, "all memory"));
+    for (const MemoryBarrier& barrier : in.plan.memory_barriers.subspan(group.first_memory, group.memory_count))
+      add(barrier_event(barrier, index, "all memory"));
     for (const BufferBarrier& barrier : in.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
       const uint32_t resource = in.program_resource[barrier.buffer.resource];
       Event event = barrier_event(barrier, index, "`" + row(resource).name + "`");
@@ -211,7 +219,8 @@ struct Unroller {
   void add_batch(const Batch& batch) {
     queue = batch.queue;
     for (const Wait& wait : in.plan.waits.subspan(batch.first_wait, batch.wait_count)) add_wait(wait);
-    for (const Step& step : in.plan.steps.subspan(batch.first_step, batch.step_count)) step.kind == StepKind::pass ? add_pass(step.index) : add_group(step.index);
+    for (const Step& step : in.plan.steps.subspan(batch.first_step, batch.step_count))
+      step.kind == StepKind::pass ? add_pass(step.index) : add_group(step.index);
     for (const Signal& signal : in.plan.signals.subspan(batch.first_signal, batch.signal_count)) add_signal(signal);
     queue = 0;
   }
@@ -261,7 +270,8 @@ struct Unroller {
     const bool present = after.role == dsl::Role::present;
     if (present) touches = {{stage::bottom_of_pipe, access::none, false, false}};
     for (const Touch& touch : touches) {
-      Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0), readback ? "the host" : "the engine");
+      Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0),
+                                readback ? "the host" : "the engine");
       event.through_semaphore = present;
       event.after_all = present || readback;
       event.layout = boundary_layout(in.plan.exit, resource, after.role);

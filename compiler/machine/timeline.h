@@ -20,30 +20,30 @@ enum class EventKind : uint8_t { read, write, barrier, bring };
 
 struct Event {
   EventKind kind = EventKind::barrier;
-  std::string label;                 // "`light` reads `depth` (stage 0x800), frame 1"
+  std::string label;  // "`light` reads `depth` (stage 0x800), frame 1"
   uint32_t frame = 0, queue = 0;
-  Index pass = kNone;                // of the plan; kNone: a barrier or the engine
-  uint32_t resource = kNone;         // of the program; kNone: all memory
-  std::vector<uint32_t> cells;       // physical; empty and resource kNone: all
+  Index pass = kNone;           // of the plan; kNone: a barrier or the engine
+  uint32_t resource = kNone;    // of the program; kNone: all memory
+  std::vector<uint32_t> cells;  // physical; empty and resource kNone: all
   // What it waits for and what waits for it.
-  Stages stages = 0;                 // of an access
-  Stages src = 0, dst = 0;           // of a barrier, logically earlier and later stages included
-  std::vector<uint32_t> after;       // besides: events that precede in any case
-  bool after_all = false;            // fence or binary semaphore: all earlier events precede
-  bool before_all = false;           // done before the first frame was submitted
+  Stages stages = 0;            // of an access
+  Stages src = 0, dst = 0;      // of a barrier, logically earlier and later stages included
+  std::vector<uint32_t> after;  // besides: events that precede in any case
+  bool after_all = false;       // fence or binary semaphore: all earlier events precede
+  bool before_all = false;      // done before the first frame was submitted
   // Accesses.
   uint32_t agent = kNone;
-  Layout layout = Layout::undefined; // required; images only
+  Layout layout = Layout::undefined;  // required; images only
   bool image = false;
-  std::vector<Version> expected;     // read: what program order finds
-  std::vector<Version> result;       // write: what program order leaves; bring: what the engine brings
-  bool shares = false;               // commutes with neighbours that share
-  bool partial = false;              // completed by a later event of the pass
-  bool lost = false;                 // the plan's load or store operation drops the contents
-  bool pending = false;              // bring: the engine's write is not yet available
-  bool through_semaphore = false;    // read: sees all that was written before it
+  std::vector<Version> expected;   // read: what program order finds
+  std::vector<Version> result;     // write: what program order leaves; bring: what the engine brings
+  bool shares = false;             // commutes with neighbours that share
+  bool partial = false;            // completed by a later event of the pass
+  bool lost = false;               // the plan's load or store operation drops the contents
+  bool pending = false;            // bring: the engine's write is not yet available
+  bool through_semaphore = false;  // read: sees all that was written before it
   // Barriers.
-  Index group = kNone;               // elements of one command
+  Index group = kNone;  // elements of one command
   Stages src_exact = 0, dst_exact = 0;
   Accesses src_accesses = 0, dst_accesses = 0;
   AgentSet src_agents = 0, dst_agents = 0;
@@ -57,7 +57,7 @@ struct Agent {
 };
 
 struct Timeline {
-  std::vector<Event> events;         // in submission order
+  std::vector<Event> events;  // in submission order
   std::vector<Agent> agents;
   std::vector<std::pair<uint32_t, Layout>> initial_layouts;  // physical cell
 };

@@ -23,7 +23,8 @@ struct Planned {
 Planned plan_random(uint64_t seed) {
   const std::string source = make_random_program(seed, 4 + static_cast<uint32_t>(seed % 17));
   dsl::Diagnostics diagnostics;
-  dsl::FrontEndResult front = dsl::load_program("random.rg", [&](const std::string&, std::string&) { return std::optional(source); }, diagnostics);
+  dsl::FrontEndResult front = dsl::load_program(
+      "random.rg", [&](const std::string&, std::string&) { return std::optional(source); }, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << print(diagnostics, front.files, false);
   Planned planned{std::move(front.program), {}};
   planned.frame = compiler::plan_frame(planned.program, dsl::GraphId{0}, {}, {});
@@ -64,7 +65,8 @@ TEST(RandomPlans, AgreeWithProgramOrder) {
 // ---- taking things away ----
 
 constexpr Accesses kReads = access::indirect_command_read | access::index_read | access::vertex_attribute_read | access::uniform_read |
-                            access::color_attachment_read | access::shader_sampled_read | access::shader_storage_read | access::transfer_read | access::host_read;
+                            access::color_attachment_read | access::shader_sampled_read | access::shader_storage_read | access::transfer_read |
+                            access::host_read;
 
 struct Mutant {
   PlanData plan;
@@ -124,8 +126,8 @@ bool is_equivalent(const PlanData& original, const PlanData& mutant) {
   return false;
 }
 
-// The rest of what is not found changes nothing that can be read: contents that nobody reads, imports that never change, execution that another barrier
-// of the plan orders as well.
+// The rest of what is not found changes nothing that can be read: contents that nobody reads, imports that never change, execution that another
+// barrier of the plan orders as well.
 TEST(RandomPlans, MissingPiecesAreFound) {
   size_t found = 0, not_found = 0;
   std::vector<std::string> missed;

@@ -92,7 +92,8 @@ class Generator {
   size_t any(bool buffer) {
     for (;;) {
       const size_t place = below(static_cast<uint32_t>(places_.size()));
-      if (places_[place].buffer == buffer && !places_[place].depth && places_[place].text != "scene.table" && places_[place].text != "scene.maps") return place;
+      if (places_[place].buffer == buffer && !places_[place].depth && places_[place].text != "scene.table" && places_[place].text != "scene.maps")
+        return place;
     }
   }
 
@@ -102,7 +103,9 @@ class Generator {
       if (!places_[place].defined || !take(place)) continue;
       const bool history = places_[place].text == "past" || places_[place].text == "count";
       const std::string text = places_[place].text + (history && chance(2) ? ".prev(1)" : "");
-      const char* role = places_[place].buffer ? "storage" : places_[place].depth || chance(2) || places_[place].text == "scene.maps" ? "sampled" : "storage";
+      const char* role = places_[place].buffer                                                      ? "storage"
+                         : places_[place].depth || chance(2) || places_[place].text == "scene.maps" ? "sampled"
+                                                                                                    : "storage";
       if (places_[place].buffer && stage != "compute" && places_[place].text.find('.') == std::string::npos && chance(3)) role = "uniform";
       state("read", fmt::format("{} as {} in {}", text, role, stage));
     }
@@ -112,11 +115,21 @@ class Generator {
     const bool conditional = chance(8);
     if (conditional) text_ += "  if host sometimes {\n";
     switch (below(conditional ? 2 : 6)) {
-      case 0: add_compute(conditional); break;
-      case 1: add_raster(conditional); break;
-      case 2: add_transfer(); break;
-      case 3: add_atomics(); break;
-      default: chance(2) ? add_compute(false) : add_raster(false); break;
+      case 0:
+        add_compute(conditional);
+        break;
+      case 1:
+        add_raster(conditional);
+        break;
+      case 2:
+        add_transfer();
+        break;
+      case 3:
+        add_atomics();
+        break;
+      default:
+        chance(2) ? add_compute(false) : add_raster(false);
+        break;
     }
     if (conditional) text_ += "  }\n";
   }
@@ -138,7 +151,8 @@ class Generator {
   }
 
   void attach_depth(bool updates_only) {
-    const auto depth = static_cast<size_t>(std::find_if(places_.begin(), places_.end(), [](const Place& place) { return place.depth; }) - places_.begin());
+    const auto depth =
+        static_cast<size_t>(std::find_if(places_.begin(), places_.end(), [](const Place& place) { return place.depth; }) - places_.begin());
     if (updates_only && !places_[depth].defined) return;
     take(depth);
     const char* how = !places_[depth].defined || (!updates_only && chance(2)) ? " clear 0.0" : chance(2) ? " readonly" : "";
@@ -151,7 +165,10 @@ class Generator {
     const bool attachable = places_[color].text.rfind("i", 0) == 0 || places_[color].text == "past";
     if (attachable && (places_[color].defined || !updates_only)) {
       take(color);
-      state("color", places_[color].text + (updates_only ? " blend add(one, one)" : !places_[color].defined || chance(2) ? " clear 0" : chance(2) ? " covers" : ""));
+      state("color", places_[color].text + (updates_only                           ? " blend add(one, one)"
+                                            : !places_[color].defined || chance(2) ? " clear 0"
+                                            : chance(2)                            ? " covers"
+                                                                                   : ""));
       places_[color].defined = true;
     } else {
       attach_depth(updates_only);
@@ -165,8 +182,10 @@ class Generator {
     begin("transfer");
     const size_t place = any(chance(2));
     take(place);
-    if (places_[place].buffer) statements_ += fmt::format("    fill {} {}\n", places_[place].text, below(9));
-    else statements_ += fmt::format("    clear {} 0\n", places_[place].text);
+    if (places_[place].buffer)
+      statements_ += fmt::format("    fill {} {}\n", places_[place].text, below(9));
+    else
+      statements_ += fmt::format("    clear {} 0\n", places_[place].text);
     places_[place].defined = true;
     end();
   }
@@ -185,8 +204,9 @@ class Generator {
   }
 
   void define_histories() {
-    text_ += "  pass accumulate : compute {\n    read past_before = past.prev(1) as sampled\n    read count_before = count.prev(2) as storage\n"
-             "    write past as storage\n    write count as storage\n  }\n";
+    text_ +=
+        "  pass accumulate : compute {\n    read past_before = past.prev(1) as sampled\n    read count_before = count.prev(2) as storage\n"
+        "    write past as storage\n    write count as storage\n  }\n";
     for (Place& place : places_)
       if (place.text == "past" || place.text == "count") place.defined = true;
   }

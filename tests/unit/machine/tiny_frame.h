@@ -17,7 +17,7 @@ struct Use {
   dsl::Role role = dsl::Role::storage;
   Layout layout = Layout::undefined;  // images
   uint32_t age = 0;
-  bool clear = false;                 // attachments
+  bool clear = false;  // attachments
 };
 
 inline Use reads(uint32_t resource, uint32_t age = 0) { return {.resource = resource, .age = age}; }
@@ -38,10 +38,10 @@ class TinyFrame {
 
   uint32_t compute(const std::string& name, std::initializer_list<Use> uses) { return pass(name, dsl::PassKind::compute, uses); }
   uint32_t pass(const std::string& name, dsl::PassKind kind, std::initializer_list<Use> uses);
-  void memory(const MemoryBarrier& barrier);        // a group of its own
+  void memory(const MemoryBarrier& barrier);  // a group of its own
   void images(std::initializer_list<ImageBarrier> barriers);
   void group(std::initializer_list<MemoryBarrier> memory, std::initializer_list<ImageBarrier> images);
-  void boundary(const Boundary& state);             // at entry and exit
+  void boundary(const Boundary& state);  // at entry and exit
 
   // The first use of anything waits for what compute did the frame before.
   void after_last_frame() { memory({.src_stages = stage::compute_shader, .dst_stages = stage::compute_shader}); }

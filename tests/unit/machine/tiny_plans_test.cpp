@@ -18,10 +18,13 @@ void expect_divergence(const TinyFrame& frame, const std::string& pass, const st
                        const machine::MachineOptions& options = {}) {
   const std::vector<Divergence> divergences = frame.run(options);
   ASSERT_FALSE(divergences.empty()) << "nothing found; `" << pass << "` should find " << found;
-  const auto fits = [&](const Divergence& each) { return each.pass == pass && each.resource == resource && each.found.find(found) != std::string::npos; };
+  const auto fits = [&](const Divergence& each) {
+    return each.pass == pass && each.resource == resource && each.found.find(found) != std::string::npos;
+  };
   std::string all;
   for (const Divergence& each : divergences) all += text(each) + "\n";
-  EXPECT_TRUE(std::any_of(divergences.begin(), divergences.end(), fits)) << "wanted: " << pass << " finds " << found << " in " << resource << "\n" << all;
+  EXPECT_TRUE(std::any_of(divergences.begin(), divergences.end(), fits)) << "wanted: " << pass << " finds " << found << " in " << resource << "\n"
+                                                                         << all;
   EXPECT_FALSE(divergences[0].schedule.empty());
 }
 
@@ -173,11 +176,13 @@ TEST(TinyPlans, AtomicGroupNeedsItsStartAndEnd) {
 TinyFrame color_then_sampled() {
   TinyFrame frame;
   const uint32_t color = frame.image("color");
-  frame.images({transition(color, Layout::undefined, Layout::color_attachment,
-                           {stage::compute_shader, access::none, stage::color_attachment_output, access::color_attachment_write, BarrierTag::hazard})});
+  frame.images(
+      {transition(color, Layout::undefined, Layout::color_attachment,
+                  {stage::compute_shader, access::none, stage::color_attachment_output, access::color_attachment_write, BarrierTag::hazard})});
   frame.pass("draw", dsl::PassKind::raster, {colors(color, true)});
-  frame.images({transition(color, Layout::color_attachment, Layout::shader_read_only,
-                           {stage::color_attachment_output, access::color_attachment_write, stage::compute_shader, access::shader_sampled_read, BarrierTag::hazard})});
+  frame.images({transition(
+      color, Layout::color_attachment, Layout::shader_read_only,
+      {stage::color_attachment_output, access::color_attachment_write, stage::compute_shader, access::shader_sampled_read, BarrierTag::hazard})});
   frame.compute("consume", {samples(color)});
   return frame;
 }
