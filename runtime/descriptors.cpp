@@ -179,12 +179,11 @@ VkDeviceSize lay_out_params(const Context& context, Ring& ring) {
 
 VkDeviceSize lay_out_updates(Sized& sized, VkDeviceSize end) {
   constexpr VkDeviceSize kTexelAlignment = 16;  // of the largest texel or block that is copied
-  for (PassTable& pass : sized.passes)
-    for (TransferTable& transfer : pass.transfers) {
-      if (transfer.transfer->kind != TransferKind::update) continue;
-      transfer.upload_offset = static_cast<uint32_t>(round_up(end, kTexelAlignment));
-      end = transfer.upload_offset + transfer.upload_bytes;
-    }
+  for (const TransferRef& update : sized.updates) {
+    TransferTable& transfer = sized.passes[update.pass].transfers[update.transfer];
+    transfer.upload_offset = static_cast<uint32_t>(round_up(end, kTexelAlignment));
+    end = transfer.upload_offset + transfer.upload_bytes;
+  }
   return end;
 }
 
@@ -244,13 +243,14 @@ Status create_sets(const Context& context, const Objects& objects, Sized& sized)
     if (sized.passes[i].set.period == 0) continue;
     RG_TRY(allocate_sets(context, sized, objects.passes[i], sized.passes[i].set));
     RG_TRY(fill_sets(context, objects, sized, context.plan.passes[i], sized.passes[i]));
+    if (sized.passes[i].runs && !sized.passes[i].set.imported.empty()) sized.imported_sets.push_back(static_cast<Index>(i));
   }
   return Done{};
 }
 
 void update_imported_bindings(const Context& context, Sized& sized, const std::vector<Import>& imports, uint64_t frame) {
-  for (PassTable& pass : sized.passes) {
-    if (!pass.runs || pass.set.imported.empty()) continue;
+  for (const Index index : sized.imported_sets) {
+    PassTable& pass = sized.passes[index];
     const uint32_t phase = static_cast<uint32_t>(frame % pass.set.period);
     forget_replaced(sized, pass.set);
     for (size_t i = 0; i < pass.set.imported.size(); ++i) update_binding(context, sized, imports, pass.set, i, phase);

@@ -5,6 +5,7 @@
 #include "runtime/errors.h"
 #include "runtime/executor.h"
 #include "runtime/formats.h"
+#include "runtime/layouts.h"
 #include "runtime/record.h"
 #include "runtime/resolve.h"
 #include "runtime/resources.h"
@@ -17,28 +18,6 @@ VkImageAspectFlags dumped_aspect(const Resource& resource) {
   for (const VkImageAspectFlags aspect : {VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_DEPTH_BIT})
     if ((resource.aspects & aspect) != 0) return aspect;
   return VK_IMAGE_ASPECT_STENCIL_BIT;
-}
-
-bool contains(const Range& range, VkImageAspectFlags aspect, uint32_t mip, uint32_t layer) {
-  const bool in_mips = mip >= range.mip && (range.mips == kRemaining || mip - range.mip < range.mips);
-  const bool in_layers = layer >= range.layer && (range.layers == kRemaining || layer - range.layer < range.layers);
-  return in_mips && in_layers && (range.aspects == 0 || (range.aspects & aspect) != 0);
-}
-
-// Follows the frame's barriers up to the pass.
-VkImageLayout layout_after(const Plan& plan, Index pass, Index resource, uint32_t mip, uint32_t layer) {
-  const VkImageAspectFlags aspect = dumped_aspect(plan.resources[resource]);
-  Layout layout = Layout::undefined;
-  for (const Boundary& boundary : plan.entry)
-    if (boundary.ref == Ref{resource, 0} && contains(boundary.range, aspect, mip, layer)) layout = boundary.layout;
-  for (const Step& step : plan.steps) {
-    if (step.kind == StepKind::pass && step.index == pass) break;
-    if (step.kind == StepKind::pass) continue;
-    const BarrierGroup& group = plan.groups[step.index];
-    for (const ImageBarrier& barrier : plan.image_barriers.subspan(group.first_image, group.image_count))
-      if (barrier.image == Ref{resource, 0} && contains(barrier.range, aspect, mip, layer)) layout = barrier.new_layout;
-  }
-  return static_cast<VkImageLayout>(layout);
 }
 
 Status check_dump(const GraphInstance::State& state, Index pass, Index resource, uint32_t mip) {
@@ -66,7 +45,8 @@ void shape_image(const GraphInstance::State& state, DumpRequest& dump) {
   dump.shape.bytes_per_texel = copy_bytes(static_cast<VkFormat>(resource.format), dumped_aspect(resource));
   dump.bytes = VkDeviceSize{extent.width} * extent.height * dump.shape.depth_or_layers * dump.shape.bytes_per_texel;
   for (uint32_t layer = 0; layer < size.layers; ++layer)
-    dump.layouts.push_back(layout_after(state.context.plan, dump.pass, dump.resource, dump.mip, layer));
+    dump.layouts.push_back(
+        static_cast<VkImageLayout>(layout_at(state.context.plan, dump.pass, {dump.resource, 0}, dumped_aspect(resource), dump.mip, layer)));
 }
 
 void shape_buffer(const GraphInstance::State& state, DumpRequest& dump) {

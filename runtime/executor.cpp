@@ -138,8 +138,8 @@ Error wrong(std::string message) { return Error{ErrorCode::invalid_argument, std
 Status check_imports(const GraphInstance::State& state, const FrameInputs& inputs) {
   if (inputs.imports.size() < state.imports.size())
     return wrong("too few imports: " + std::to_string(inputs.imports.size()) + " of " + std::to_string(state.imports.size()));
-  for (const Resource& resource : state.context.plan.resources) {
-    if (resource.lifetime != Lifetime::imported) continue;
+  for (const Index index : state.imported) {
+    const Resource& resource = state.context.plan.resources[index];
     const Import& import = inputs.imports[resource.import_slot];
     const bool present = resource.kind == ResourceKind::image ? import.image.image != VK_NULL_HANDLE : import.buffer.buffer != VK_NULL_HANDLE;
     if (!present) return wrong("nothing is imported for `" + std::string(resource.name) + "`");
@@ -147,18 +147,22 @@ Status check_imports(const GraphInstance::State& state, const FrameInputs& input
   return Done{};
 }
 
-Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs) {
-  const Plan& plan = state.context.plan;
-  RG_TRY(check_imports(state, inputs));
+Status check_params(const Plan& plan, const FrameInputs& inputs) {
   if (inputs.params.size() < plan.params.size()) return wrong("too few parameter blocks");
   for (size_t i = 0; i < plan.params.size(); ++i)
     if (inputs.params[i].size() != plan.params[i].bytes)
       return wrong("parameter block `" + std::string(plan.params[i].name) + "` has " + std::to_string(inputs.params[i].size()) +
                    " bytes instead of " + std::to_string(plan.params[i].bytes));
-  if (state.host_slots != 0 && inputs.callbacks == nullptr) return wrong("no callbacks");
-  for (const Pass& pass : plan.passes)
-    if (pass.work.kind == WorkKind::host && inputs.callbacks[pass.host_slot] == nullptr)
-      return wrong("pass `" + std::string(pass.name) + "` has no callback");
+  return Done{};
+}
+
+Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs) {
+  const Plan& plan = state.context.plan;
+  RG_TRY(check_imports(state, inputs));
+  RG_TRY(check_params(plan, inputs));
+  if (!state.host_passes.empty() && inputs.callbacks == nullptr) return wrong("no callbacks");
+  for (const Index pass : state.host_passes)
+    if (inputs.callbacks[plan.passes[pass].host_slot] == nullptr) return wrong("pass `" + std::string(plan.passes[pass].name) + "` has no callback");
   if (inputs.updates.size() < state.update_slots) return wrong("too few updates");
   if (inputs.engine_sets.size() < plan.engine_sets.size()) return wrong("too few engine sets");
   return Done{};
@@ -198,7 +202,7 @@ Status record_batch(GraphInstance::State& state, const FrameInputs& inputs, cons
   const Context& context = state.context;
   RG_TRY(begin_commands(context, commands));
   if (first && slot.queries) context.vk().CmdResetQueryPool(commands, slot.queries.get(), 0, 2 * static_cast<uint32_t>(context.plan.passes.size()));
-  FrameRecording recording{state, inputs, commands, state.frame, slot.queries.get(), {}};
+  FrameRecording recording{state, inputs, commands, state.frame, slot.queries.get(), 0};
   for (const Step& step : context.plan.steps.subspan(batch.first_step, batch.step_count)) record_step(recording, step);
   close_module(recording);
   return end_commands(context, commands);
@@ -245,7 +249,7 @@ Status run_one_by_one(GraphInstance::State& state, const FrameInputs& inputs, Fr
   const Plan& plan = state.context.plan;
   for (size_t s = 0; s < plan.steps.size(); ++s) {
     RG_TRY(begin_commands(state.context, slot.commands[s]));
-    FrameRecording recording{state, inputs, slot.commands[s], state.frame, VK_NULL_HANDLE, {}};
+    FrameRecording recording{state, inputs, slot.commands[s], state.frame, VK_NULL_HANDLE, 0};
     record_step(recording, plan.steps[s]);
     close_module(recording);
     RG_TRY(end_commands(state.context, slot.commands[s]));
@@ -325,7 +329,7 @@ Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
   RG_TRY(release_retired(state));
   RG_TRY(check(state.context.vk().ResetCommandPool(state.context.device.device, slot.pool.get(), 0), "vkResetCommandPool", state.context.plan.name));
   RG_TRY(take_imports(state, inputs));
-  RG_TRY(update_framebuffers(state.context, *state.sized, state.frame));
+  if (state.context.device.classic_render_passes) RG_TRY(update_framebuffers(state.context, *state.sized, state.frame));
   write_params(state, inputs);
   RG_TRY(write_updates(state.context, *state.sized, inputs, state.frame));
   const bool one_by_one = state.context.submit_per_pass;

@@ -78,11 +78,14 @@ Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Object
 void count_slots(GraphInstance::State& state) {
   const Plan& plan = state.context.plan;
   uint32_t imports = 0;
-  for (const Resource& resource : plan.resources)
-    if (resource.lifetime == Lifetime::imported) imports = std::max(imports, resource.import_slot + 1);
+  for (Index r = 0; r < plan.resources.size(); ++r) {
+    if (plan.resources[r].lifetime != Lifetime::imported) continue;
+    state.imported.push_back(r);
+    imports = std::max(imports, plan.resources[r].import_slot + 1);
+  }
   state.imports.resize(imports);
-  for (const Pass& pass : plan.passes)
-    if (pass.work.kind == WorkKind::host) state.host_slots = std::max(state.host_slots, pass.host_slot + 1);
+  for (Index p = 0; p < plan.passes.size(); ++p)
+    if (plan.passes[p].work.kind == WorkKind::host) state.host_passes.push_back(p);
   for (const Transfer& transfer : plan.transfers)
     if (transfer.kind == TransferKind::update) state.update_slots = std::max(state.update_slots, transfer.update_slot + 1);
 }
@@ -97,6 +100,8 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents) {
   if (state.sized) state.retired.push_back({state.submitted, std::move(state.sized)});
   state.sized = std::move(*sized);
   state.imports_applied = false;
+  state.sized_at = state.frame;
+  if (state.dump.value == 0) state.dump = {};  // asked for at other extents
   return Done{};
 }
 

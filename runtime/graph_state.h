@@ -28,7 +28,8 @@ struct Context {
 // ---- independent of extents ---------------------------------------------------------------------------------------
 
 struct PassObjects {
-  std::string name, module;  // zero-terminated, for labels
+  std::string name, module;    // zero-terminated, for labels
+  uint32_t module_number = 0;  // equal for equal modules; 0: none
   std::vector<VkFormat> color_formats;
   UniqueSetLayout set_layout;  // of set 1; null: the empty one
   UniquePipelineLayout layout;
@@ -190,6 +191,10 @@ struct HostCopy {
   VkDeviceMemory memory = VK_NULL_HANDLE;
 };  // of a readback buffer
 
+struct TransferRef {
+  Index pass = kNone, transfer = 0;  // in Sized::passes and their transfers
+};
+
 struct Sized {
   std::vector<int64_t> extents;
   std::vector<int64_t> values;           // of Plan::exprs at these extents
@@ -207,6 +212,8 @@ struct Sized {
   std::vector<ImportedBufferBarrier> imported_buffers;
   std::vector<PoisonTable> poisons;
   std::vector<PassTable> passes;
+  std::vector<TransferRef> updates;   // transfers whose bytes the host brings
+  std::vector<Index> imported_sets;   // passes whose sets hold imports
   std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps, laid end to end
   MemoryReport report;
   std::vector<PlacedResource> placements;
@@ -257,7 +264,10 @@ struct GraphInstance::State {
   uint64_t frame = 0;
   std::vector<Import> imports;   // of this frame, by slot
   bool imports_applied = false;  // to the barriers of `sized`
-  uint32_t host_slots = 0, update_slots = 0;
+  uint64_t sized_at = 0;         // frames executed when `sized` was made
+  std::vector<Index> imported;   // resources
+  std::vector<Index> host_passes;
+  uint32_t update_slots = 0;
   std::vector<double> wall_ms;  // by pass, with submit_per_pass
   DumpRequest dump;
   std::vector<VkSubmitInfo2> submits;

@@ -79,6 +79,8 @@ Status create_pass_tables(const Context& context, const Objects& objects, Sized&
     fill_info(context, sized, pass, objects.passes[i], table);
     if (pass.rendering != kNone) RG_TRY(create_rendering(context, sized, context.plan.renderings[pass.rendering], table));
     table.transfers = create_transfers(context, sized, pass);
+    for (Index t = 0; t < table.transfers.size(); ++t)
+      if (table.transfers[t].transfer->kind == TransferKind::update) sized.updates.push_back({static_cast<Index>(i), t});
   }
   return Done{};
 }

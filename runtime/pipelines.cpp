@@ -37,6 +37,10 @@ std::vector<VkDescriptorSetLayout> set_layouts(const Context& context, const Obj
 
 Status create_layout(const Context& context, const Objects& objects, const Pass& pass, PassObjects& out) {
   const std::vector<VkDescriptorSetLayout> sets = set_layouts(context, objects, pass, out);
+  if (pass.push_bytes > context.device.limits.maxPushConstantsSize)
+    return Error{ErrorCode::unsupported, "pass `" + std::string(pass.name) + "`: " + std::to_string(pass.push_bytes) +
+                                             " bytes of push constants; this device allows " +
+                                             std::to_string(context.device.limits.maxPushConstantsSize)};
   const VkPushConstantRange push{pass.push_stages, 0, pass.push_bytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -233,15 +237,16 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
     out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
                                                                  : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
-  Result<UniqueRenderPass> render_pass = create_render_pass(context, rendering, pass.name);
+  Result<UniqueRenderPass> render_pass = create_render_pass(context, static_cast<Index>(&pass - context.plan.passes.data()));
   if (!render_pass) return render_pass.error();
   out.render_pass = std::move(*render_pass);
   return Done{};
 }
 
-Status create_one(const Context& context, const Objects& objects, const Pass& pass, Shaders& shaders, PassObjects& out) {
+Status create_one(const Context& context, const Objects& objects, const Pass& pass, uint32_t module_number, Shaders& shaders, PassObjects& out) {
   out.name = pass.name;
   out.module = pass.module;
+  out.module_number = module_number;
   if (pass.rendering != kNone) RG_TRY(create_attachments(context, pass, out));
   if (pass.binding_count != 0) {
     Result<UniqueSetLayout> layout = create_set_layout(context, context.plan.bindings.subspan(pass.first_binding, pass.binding_count), pass.name);
@@ -250,6 +255,18 @@ Status create_one(const Context& context, const Objects& objects, const Pass& pa
   }
   RG_TRY(create_layout(context, objects, pass, out));
   return pass.pipeline == kNone ? Status(Done{}) : create_pipeline(context, pass, shaders, out);
+}
+
+// By pass, so that recording compares numbers and not names.
+std::vector<uint32_t> module_numbers(const Plan& plan) {
+  std::vector<std::string_view> modules = {{}};
+  std::vector<uint32_t> numbers;
+  for (const Pass& pass : plan.passes) {
+    const auto known = std::find(modules.begin(), modules.end(), pass.module);
+    numbers.push_back(static_cast<uint32_t>(known - modules.begin()));
+    if (known == modules.end()) modules.push_back(pass.module);
+  }
+  return numbers;
 }
 
 }  // namespace
@@ -261,7 +278,9 @@ Status create_pass_objects(const Context& context, Objects& objects) {
   objects.empty_set_layout = std::move(*empty);
   objects.passes.resize(context.plan.passes.size());
   Shaders shaders(context.plan.shaders.size());
-  for (size_t i = 0; i < context.plan.passes.size(); ++i) RG_TRY(create_one(context, objects, context.plan.passes[i], shaders, objects.passes[i]));
+  const std::vector<uint32_t> modules = module_numbers(context.plan);
+  for (size_t i = 0; i < context.plan.passes.size(); ++i)
+    RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], shaders, objects.passes[i]));
   return Done{};
 }
 

@@ -21,12 +21,11 @@ void end_label(const FrameRecording& r) {
   if (r.state.context.vk().CmdEndDebugUtilsLabelEXT != nullptr) r.state.context.vk().CmdEndDebugUtilsLabelEXT(r.commands);
 }
 
-void open_module(FrameRecording& r, const std::string& module) {
-  if (r.module == module) return;
+void open_module(FrameRecording& r, const PassObjects& pass) {
+  if (r.module == pass.module_number) return;
   close_module(r);
-  if (module.empty()) return;
-  begin_label(r, module);
-  r.module = module;
+  if (pass.module_number != 0) begin_label(r, pass.module);
+  r.module = pass.module_number;
 }
 
 void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index query) {
@@ -134,7 +133,7 @@ void record_pass(FrameRecording& r, Index index) {
   const Pass& pass = r.state.context.plan.passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
   PassTable& table = r.state.sized->passes[index];
-  open_module(r, objects.module);
+  open_module(r, objects);
   begin_label(r, objects.name);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
   if (table.runs && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
@@ -146,8 +145,8 @@ void record_pass(FrameRecording& r, Index index) {
 }  // namespace
 
 void close_module(FrameRecording& r) {
-  if (!r.module.empty()) end_label(r);
-  r.module = {};
+  if (r.module != 0) end_label(r);
+  r.module = 0;
 }
 
 void record_step(FrameRecording& r, const Step& step) {

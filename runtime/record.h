@@ -11,7 +11,7 @@ struct FrameRecording {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   uint64_t frame = 0;
   VkQueryPool queries = VK_NULL_HANDLE;  // null: no timestamps
-  std::string_view module;               // whose label is open
+  uint32_t module = 0;                   // whose label is open; 0: none
 };
 
 void record_step(FrameRecording& recording, const Step& step);

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "runtime/errors.h"
+#include "runtime/layouts.h"
 #include "runtime/resolve.h"
 #include "runtime/views.h"
 
@@ -54,21 +55,59 @@ void add_color(const Context& context, const Attachment& attachment, RenderPassS
   shape.descriptions.push_back(color);
 }
 
-// Depth and stencil are one attachment with two layouts here; an aspect that the pass does not name is left as it is.
-void add_depth(const Context& context, const Rendering& rendering, RenderPassShape& shape) {
-  const Attachment* depth = rendering.depth == kNone ? nullptr : &context.plan.attachments[rendering.depth];
-  const Attachment* stencil = rendering.stencil == kNone ? nullptr : &context.plan.attachments[rendering.stencil];
-  const Attachment& any = depth != nullptr ? *depth : *stencil;
-  VkAttachmentDescription2 out = description(context, any.ref, any.layout);
-  out.storeOp = out.stencilStoreOp = VK_ATTACHMENT_STORE_OP_NONE;
-  if (depth != nullptr) out.loadOp = load_op(context.device, depth->load), out.storeOp = store_op(depth->store);
-  if (stencil != nullptr) out.stencilLoadOp = load_op(context.device, stencil->load), out.stencilStoreOp = store_op(stencil->store);
+// One aspect of the depth and stencil attachment.
+struct AspectState {
+  VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_NONE;
+  VkImageLayout initial = VK_IMAGE_LAYOUT_UNDEFINED, during = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
+AspectState named_aspect(const Context& context, const Attachment& attachment, Layout layout) {
+  return {load_op(context.device, attachment.load), store_op(attachment.store), to_vk(layout), to_vk(layout)};
+}
+
+// Dynamic rendering leaves an aspect alone that it does not name; a classic render pass has to say so: contents are loaded and not stored, in the
+// layout that the frame's barriers left. Without contents any layout will do.
+AspectState unnamed_aspect(const Context& context, Index pass, const Attachment& other, uint32_t aspect) {
+  const Layout found = layout_at(context.plan, pass, other.ref, aspect, other.range.mip, other.range.layer);
+  const Layout layout = aspect == aspect_depth ? depth_part(found) : stencil_part(found);
+  if (layout != Layout::undefined) return {VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE, to_vk(layout), to_vk(layout)};
+  return {.during = to_vk(aspect == aspect_depth ? Layout::depth_attachment : Layout::stencil_attachment)};
+}
+
+struct DepthStencil {
+  const Attachment* depth = nullptr;
+  const Attachment* stencil = nullptr;
+};
+
+AspectState depth_state(const Context& context, Index pass, const DepthStencil& in, bool both) {
+  if (in.depth == nullptr) return unnamed_aspect(context, pass, *in.stencil, aspect_depth);
+  return named_aspect(context, *in.depth, both ? depth_part(in.depth->layout) : in.depth->layout);
+}
+
+AspectState stencil_state(const Context& context, Index pass, const DepthStencil& in, bool both) {
+  if (in.stencil == nullptr) return unnamed_aspect(context, pass, *in.depth, aspect_stencil);
+  return named_aspect(context, *in.stencil, both ? stencil_part(in.stencil->layout) : in.stencil->layout);
+}
+
+// Where the format has both aspects, depth and stencil are one attachment with two layouts.
+void add_depth(const Context& context, Index pass, const Rendering& rendering, RenderPassShape& shape) {
+  const DepthStencil in{rendering.depth == kNone ? nullptr : &context.plan.attachments[rendering.depth],
+                        rendering.stencil == kNone ? nullptr : &context.plan.attachments[rendering.stencil]};
+  const Attachment& any = in.depth != nullptr ? *in.depth : *in.stencil;
   const VkImageAspectFlags aspects = context.plan.resources[any.ref.resource].aspects;
+  const bool both = aspects == (aspect_depth | aspect_stencil);
+  const AspectState depth = both || in.depth != nullptr ? depth_state(context, pass, in, both) : AspectState{};
+  const AspectState stencil = both || in.stencil != nullptr ? stencil_state(context, pass, in, both) : AspectState{};
+  const AspectState& first = both || in.depth != nullptr ? depth : stencil;
+  VkAttachmentDescription2 out = description(context, any.ref, any.layout);
+  out.loadOp = depth.load, out.storeOp = depth.store, out.stencilLoadOp = stencil.load, out.stencilStoreOp = stencil.store;
+  out.initialLayout = first.initial, out.finalLayout = first.during;
   shape.depth = reference(static_cast<uint32_t>(shape.descriptions.size()), any.layout, aspects);
-  const bool split = stencil != nullptr && depth != nullptr && stencil->layout != depth->layout;
-  if (split) {
-    shape.stencil_reference = {VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_STENCIL_LAYOUT, nullptr, to_vk(stencil->layout)};
-    shape.stencil_description = {VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT, nullptr, to_vk(stencil->layout), to_vk(stencil->layout)};
+  shape.depth.layout = first.during;
+  if (both) {
+    shape.stencil_reference = {VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_STENCIL_LAYOUT, nullptr, stencil.during};
+    shape.stencil_description = {VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_STENCIL_LAYOUT, nullptr, stencil.initial, stencil.during};
     shape.depth.pNext = &shape.stencil_reference;
     out.pNext = &shape.stencil_description;
   }
@@ -88,10 +127,10 @@ void add_resolve(const Context& context, const Attachment& attachment, RenderPas
   shape.has_resolves = true;
 }
 
-void fill_shape(const Context& context, const Rendering& rendering, RenderPassShape& shape) {
+void fill_shape(const Context& context, Index pass, const Rendering& rendering, RenderPassShape& shape) {
   const std::span<const Attachment> colors = context.plan.attachments.subspan(rendering.first_color, rendering.color_count);
   for (const Attachment& color : colors) add_color(context, color, shape);
-  if (depth_or_stencil(rendering) != kNone) add_depth(context, rendering, shape);
+  if (depth_or_stencil(rendering) != kNone) add_depth(context, pass, rendering, shape);
   for (const Attachment& color : colors) add_resolve(context, color, shape);
 }
 
@@ -182,9 +221,11 @@ VkClearValue clear_value(const Context& context, const Attachment& attachment) {
   return value;
 }
 
-Result<UniqueRenderPass> create_render_pass(const Context& context, const Rendering& rendering, std::string_view name) {
+Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass) {
+  const std::string_view name = context.plan.passes[pass].name;
+  const Rendering& rendering = context.plan.renderings[context.plan.passes[pass].rendering];
   RenderPassShape shape;
-  fill_shape(context, rendering, shape);
+  fill_shape(context, pass, rendering, shape);
   VkSubpassDescription2 subpass{};
   subpass.sType = VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2;
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
@@ -199,9 +240,9 @@ Result<UniqueRenderPass> create_render_pass(const Context& context, const Render
   info.pAttachments = shape.descriptions.data();
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
-  VkRenderPass pass = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateRenderPass2(context.device.device, &info, nullptr, &pass), "vkCreateRenderPass2", name));
-  return UniqueRenderPass(context.vk(), context.device.device, pass);
+  VkRenderPass handle = VK_NULL_HANDLE;
+  RG_TRY(check(context.vk().CreateRenderPass2(context.device.device, &info, nullptr, &handle), "vkCreateRenderPass2", name));
+  return UniqueRenderPass(context.vk(), context.device.device, handle);
 }
 
 Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass) {

@@ -16,7 +16,7 @@ VkAttachmentLoadOp load_op(const Device::State& device, LoadOp op);
 VkAttachmentStoreOp store_op(StoreOp op);
 VkClearValue clear_value(const Context& context, const Attachment& attachment);
 
-Result<UniqueRenderPass> create_render_pass(const Context& context, const Rendering& rendering, std::string_view name);
+Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass);
 
 // Views and attachment infos; pass.info.extent is the render area.
 Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass);

@@ -261,11 +261,11 @@ Status write_update(const Context& context, Sized& sized, TransferTable& table, 
 }  // namespace
 
 Status write_updates(const Context& context, Sized& sized, const FrameInputs& inputs, uint64_t frame) {
-  for (size_t p = 0; p < sized.passes.size(); ++p) {
-    if (!sized.passes[p].runs || (context.plan.passes[p].guard & ~inputs.conditions) != 0) continue;
-    for (TransferTable& table : sized.passes[p].transfers)
-      if (table.transfer->kind == TransferKind::update)
-        RG_TRY(write_update(context, sized, table, inputs.updates[table.transfer->update_slot], frame));
+  for (const TransferRef& update : sized.updates) {
+    PassTable& pass = sized.passes[update.pass];
+    if (!pass.runs || (context.plan.passes[update.pass].guard & ~inputs.conditions) != 0) continue;
+    TransferTable& table = pass.transfers[update.transfer];
+    RG_TRY(write_update(context, sized, table, inputs.updates[table.transfer->update_slot], frame));
   }
   return Done{};
 }

@@ -108,6 +108,43 @@ TEST_F(Frames, PassesOnMissingMipsAreSkipped) {
   EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
 }
 
+// One aspect of a depth and stencil image is attached, the other left alone.
+void attach_depth_only(Device& device, Layout layout, uint32_t aspects) {
+  test::TestPlan p;
+  const Index side = p.constant(16),
+              image = p.image("depth", Format{130}, side, side, test::kDepthAttachment | test::kCopySrc, aspect_depth | aspect_stencil);
+  constexpr Stages tests = stage::early_fragment_tests | stage::late_fragment_tests;
+  ImageBarrier barrier = test::discard(image, tests, access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, layout, tests);
+  barrier.src_accesses = access::depth_stencil_attachment_write, barrier.range.aspects = aspects;
+  p.barriers({barrier});
+  Attachment depth;
+  depth.ref = {image, 0}, depth.range.aspects = aspect_depth, depth.layout = layout, depth.load = LoadOp::clear, depth.clear.word[0] = 0x3f000000;
+  Rendering rendering;
+  rendering.depth = test::TestPlan::add(p.attachments, depth), rendering.width = rendering.height = side;
+  Pass pass;
+  pass.name = "prepass", pass.kind = PassKind::raster, pass.rendering = test::TestPlan::add(p.renderings, rendering);
+  const Index index = p.pass(pass, {test::touches({image, 0}, tests, access::depth_stencil_attachment_write, layout, true)});
+  GraphOptions options;
+  options.debug_readback = true;
+  Result<GraphInstance> graph = GraphInstance::create(device, p.view(), options);
+  ASSERT_TRUE(graph) << graph.error().message;
+  EXPECT_EQ(graph->pass_info(index).stencil_format, VK_FORMAT_UNDEFINED);
+  RG_ASSERT_OK(graph->request_dump(index, image));
+  for (int frame = 0; frame < 3; ++frame) RG_ASSERT_OK(graph->execute({}));
+  const Result<Dump> dump = graph->take_dump();
+  ASSERT_TRUE(dump) << dump.error().message;
+  EXPECT_EQ(test::as<float>(dump->bytes), std::vector<float>(256, 0.5f));
+}
+
+TEST_F(Frames, DepthIsAttachedWithoutItsStencil) {
+  for (const bool validate : {false, true}) {
+    RG_OPEN_DEVICE(device, validate);
+    attach_depth_only(device, Layout::depth_attachment, aspect_depth);
+    attach_depth_only(device, Layout::depth_stencil_attachment, aspect_depth | aspect_stencil);
+    EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
+  }
+}
+
 void share_memory(Device& device, bool aliasing, bool poison) {
   test::Aliased t = test::aliased();
   GraphOptions options;

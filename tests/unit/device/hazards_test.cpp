@@ -71,7 +71,7 @@ TEST_F(Hazards, WrongSourceStage) {
 
 TEST_F(Hazards, ReadAfterWriteAcrossSubmits) {
   test::Counter t = test::counter();
-  t.plan.buffer_barriers[0].src_accesses = access::none;  // state.prev(1), written by the frame before
+  t.plan.groups[0].buffer_count = 0;  // state.prev(1), written by the frame before
   run(t.plan);
   expect("vkQueueSubmit2: Hazard READ_AFTER_WRITE");
 }

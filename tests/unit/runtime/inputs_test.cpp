@@ -58,7 +58,7 @@ TEST_F(Inputs, CallbacksArePresent) {
 TEST_F(Inputs, ReadBackNeedsAFrameAndABuffer) {
   test::ClearAndCopy t = test::clear_and_copy();
   GraphInstance graph = make(t.plan);
-  EXPECT_EQ(graph.readback(t.result).error().message, "`result`: no frame was executed yet");
+  EXPECT_EQ(graph.readback(t.result).error().message, "`result`: no frame was executed since creation or resize");
   frame(graph);
   EXPECT_EQ(graph.readback(t.color).error().message, "resource 0 is no readback buffer");
   EXPECT_EQ(graph.readback(t.result)->size(), 8u * 4 * 4);
