@@ -1,8 +1,8 @@
 // Every read needs a write that reaches it on every path: in every feature configuration and whatever the host's conditions are.
 //
 // A resource is a set of cells: (aspect, mip, layer) of an image, the whole or known byte ranges of a buffer. A cell remembers under which
-// guards and conditions it has been written for certain. A pass that exists only at extents with enough mips counts as running: what it
-// reads and writes vanishes with it.
+// guards and conditions it has been written for certain. A pass that touches mip m of an image runs only at extents where the image has that
+// mip: what it writes is certain for readers that need the same mip, and for the mips that vanish with it.
 #include <algorithm>
 #include <map>
 
@@ -11,11 +11,12 @@
 namespace rg::dsl {
 namespace {
 
-struct Fact {  // written for certain whenever the guard and the conditions hold
+struct Fact {  // written for certain whenever the guard, the conditions and the limits hold
   Guard guard;
   std::vector<ConditionId> conditions;
+  std::vector<MipLimit> limits;
   friend bool operator==(const Fact&, const Fact&) = default;
-  bool always() const { return guard.terms.empty() && conditions.empty(); }
+  bool always() const { return guard.terms.empty() && conditions.empty() && limits.empty(); }
 };
 struct Cell {
   bool always = false;
@@ -27,10 +28,10 @@ struct ByteRange {
   Fact fact;
 };
 struct Tracked {
-  Cell whole;                  // buffers, and images written as a whole
-  std::vector<Cell> cells;     // images: aspect-major, allocated on the first partial write
+  Cell whole;               // buffers, and images written as a whole
+  std::vector<Cell> cells;  // images: aspect-major, allocated on the first partial write
   std::vector<ByteRange> bytes;
-  std::vector<uint32_t> may;   // passes that may have written
+  std::vector<uint32_t> may;  // passes that may have written
 };
 
 struct Walk {
@@ -43,6 +44,12 @@ struct Walk {
 
 bool implies(const std::vector<ConditionId>& reader, const std::vector<ConditionId>& writer) {
   return std::all_of(writer.begin(), writer.end(), [&](ConditionId each) { return std::find(reader.begin(), reader.end(), each) != reader.end(); });
+}
+
+bool implies(const std::vector<MipLimit>& reader, const std::vector<MipLimit>& writer) {
+  return std::all_of(writer.begin(), writer.end(), [&](const MipLimit& limit) {
+    return std::any_of(reader.begin(), reader.end(), [&](const MipLimit& held) { return held.image == limit.image && held.mip >= limit.mip; });
+  });
 }
 
 using Configuration = std::map<uint32_t, uint32_t>;  // feature -> value
@@ -84,7 +91,7 @@ bool covers(const Walk& walk, const std::vector<const Fact*>& facts, const Fact&
       if (std::find(features.begin(), features.end(), term.feature.value) == features.end()) features.push_back(term.feature.value);
   };
   for (const Fact* fact : facts) {
-    if (!implies(reader.conditions, fact->conditions)) continue;
+    if (!implies(reader.conditions, fact->conditions) || !implies(reader.limits, fact->limits)) continue;
     if (fact->guard.terms.empty() || fact->guard == reader.guard) return true;
     usable.push_back(fact);
     mention(fact->guard);
@@ -136,10 +143,18 @@ bool each_cell(const Resource& image, const Range& range, Visit visit) {
   return true;
 }
 
-void define_image(Tracked& tracked, const Resource& image, const Range& range, const Fact& fact) {
-  if (is_whole(image, range)) return set(tracked.whole, fact);
+uint32_t mip_of_cell(const Resource& image, uint32_t cell) { return cell / image.layers % image.mips; }
+
+// Where the cell exists, limits to its own image up to its own mip hold.
+Fact for_cell(Fact fact, ResourceId id, uint32_t mip) {
+  std::erase_if(fact.limits, [&](const MipLimit& limit) { return limit.image == id && limit.mip <= mip; });
+  return fact;
+}
+
+void define_image(Tracked& tracked, ResourceId id, const Resource& image, const Range& range, const Fact& fact) {
+  if (is_whole(image, range) && fact.limits.empty()) return set(tracked.whole, fact);
   if (tracked.cells.empty()) tracked.cells.resize(size_t{3} * image.mips * image.layers);
-  each_cell(image, range, [&](uint32_t cell) { return set(tracked.cells[cell], fact), true; });
+  each_cell(image, range, [&](uint32_t cell) { return set(tracked.cells[cell], for_cell(fact, id, mip_of_cell(image, cell))), true; });
 }
 
 bool image_defined(const Walk& walk, const Tracked& tracked, const Resource& image, const Range& range, const Fact& reader) {
@@ -212,6 +227,7 @@ const char* why_maybe(const Pass& pass) {
   if (!pass.conditions.empty()) return "the host decides whether it runs";
   if (!pass.guard.terms.empty()) return "it exists only with some features";
   if (pass.dispatch.kind == DispatchKind::indirect) return "its work is counted on the GPU; declare `clear` or `covers`";
+  if (!pass.mip_limits.empty()) return "it is skipped where the extent leaves too few mips";
   return "it keeps what it does not touch; declare `clear` or `covers`";
 }
 
@@ -238,8 +254,10 @@ void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& 
     diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
     return;
   }
-  if (const std::string missing = first_missing(walk, access); !missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
-  if (const Pass* later = find_later_writer(walk, pass + 1, access.resource)) diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
+  if (const std::string missing = first_missing(walk, access); !missing.empty())
+    diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
+  if (const Pass* later = find_later_writer(walk, pass + 1, access.resource))
+    diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
   diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
 }
 
@@ -255,7 +273,8 @@ void report(Walk& walk, uint32_t pass, const Access& access) {
   const Resource& resource = walk.graph.resources[access.resource];
   const std::string& name = walk.graph.passes.rows[pass].name;
   Diagnostic diagnostic(DiagnosticKind::ReadBeforeWrite, access.span, {name, resource.name});
-  if (access.mode != Mode::read) diagnostic = {DiagnosticKind::KeepsBeforeWrite, access.span, {name, resource.name, way_out(walk.graph.passes.rows[pass], access)}};
+  if (access.mode != Mode::read)
+    diagnostic = {DiagnosticKind::KeepsBeforeWrite, access.span, {name, resource.name, way_out(walk.graph.passes.rows[pass], access)}};
   explain(walk, pass, access, diagnostic);
   walk.checker.diagnostics.report(std::move(diagnostic));
 }
@@ -272,8 +291,10 @@ void write(Walk& walk, uint32_t pass, const Access& access, const Fact& writer) 
   const bool certain = access.mode == Mode::write || access.clear;
   if (!certain || !writer.always()) tracked.may.push_back(pass);
   if (!certain) return;
-  if (resource.kind == ResourceKind::image) define_image(tracked, resource, access.range, writer);
-  else define_buffer(walk, tracked, access.range, writer);
+  if (resource.kind == ResourceKind::image)
+    define_image(tracked, access.resource, resource, access.range, writer);
+  else
+    define_buffer(walk, tracked, access.range, writer);
 }
 
 Range whole_range(const Resource& resource) {
@@ -289,7 +310,7 @@ void check_history(Walk& walk, ResourceId id) {
   Access access;
   access.resource = id;
   access.range = whole_range(resource);
-  if (is_defined(walk, access, Fact{resource.guard, {}})) return;
+  if (is_defined(walk, access, Fact{resource.guard, {}, {}})) return;
   Diagnostic diagnostic(DiagnosticKind::HistoryNotWritten, resource.span, {resource.name});
   const Tracked& tracked = walk.tracked[id.value];
   if (!tracked.may.empty()) {
@@ -309,7 +330,7 @@ void check_definitions(Checker& checker, const Graph& graph) {
     if (defined_from_start(graph.resources.rows[id])) walk.tracked[id].whole.always = true;
   for (uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
     const Pass& row = graph.passes.rows[pass];
-    const Fact when{row.guard, row.conditions};
+    const Fact when{row.guard, row.conditions, row.mip_limits};
     for (const Access& access : row.accesses) read(walk, pass, access, when);
     for (const Access& access : row.accesses) write(walk, pass, access, when);
   }
