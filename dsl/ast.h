@@ -39,14 +39,19 @@ struct Name {
 
 enum class ExprKind : uint8_t {
   error,
-  integer, real,   // value
-  dimensions,      // 1920x1080: operands are integers
-  name,            // text
-  member,          // operands[0].text
-  index,           // operands[0][operands[1]]
-  call,            // operands[0](operands[1...])
-  list,            // [a, b, c] or (a, b)
-  negate, add, sub, mul, div,
+  integer,
+  real,        // value
+  dimensions,  // 1920x1080: operands are integers
+  name,        // text
+  member,      // operands[0].text
+  index,       // operands[0][operands[1]]
+  call,        // operands[0](operands[1...])
+  list,        // [a, b, c] or (a, b)
+  negate,
+  add,
+  sub,
+  mul,
+  div,
 };
 struct Expr {
   ExprKind kind = ExprKind::error;
@@ -59,9 +64,9 @@ struct Expr {
 
 // `culling.Light`, `u32`, with `[n]` or `[]` behind it
 struct TypeName {
-  Expr name;                  // name or member
-  Boxed<Expr> count;  // [n]
-  bool unsized = false;       // []
+  Expr name;             // name or member
+  Boxed<Expr> count;     // [n]
+  bool unsized = false;  // []
   Span span;
 };
 
@@ -96,9 +101,9 @@ struct StructDeclaration {
 
 // A word with its values: `filter linear`, `bias 1.0 2.0`, `depth test greater`, `mips 6`, `no alias`.
 struct Setting {
-  Name word, second;          // second: `test` of `depth test`, `alias` of `no alias`
-  std::vector<Name> names;    // values that are words
-  std::vector<Expr> values;   // values that are numbers
+  Name word, second;         // second: `test` of `depth test`, `alias` of `no alias`
+  std::vector<Name> names;   // values that are words
+  std::vector<Expr> values;  // values that are numbers
   Span span;
 };
 struct SamplerDeclaration {
@@ -135,14 +140,14 @@ struct ResourceDeclaration {
   bool is_buffer = false;
   Name name;
   Boxed<Expr> index;  // `image pyramid[i]`
-  Name format;                // images
+  Name format;        // images
   Boxed<Expr> size;   // images
-  TypeName element;           // buffers
+  TypeName element;   // buffers
   std::vector<Setting> settings;
   Boxed<Expr> clear;  // of `init clear V`
   bool has_init = false;
   Boxed<Usage> ready, after;
-  bool wrote = false;         // `written as`, not `ready as`
+  bool wrote = false;  // `written as`, not `ready as`
   bool has_error = false;
   Span span;
 };
@@ -186,8 +191,8 @@ struct DispatchStatement {
 };
 struct PerDraw {
   Name name;
-  Boxed<Expr> type;                       // by name
-  Boxed<StructDeclaration> declaration;   // or in place
+  Boxed<Expr> type;                      // by name
+  Boxed<StructDeclaration> declaration;  // or in place
 };
 struct DrawStatement {
   bool host = false, indirect = false, indexed = false;
@@ -216,7 +221,8 @@ struct WordStatement {  // state NAME, bind NAME, after PASS, keep
   Boxed<Expr> value;
   Span span;
 };
-using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
+using Statement =
+    std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
 
 struct PassDeclaration {
   Name name;
@@ -291,8 +297,8 @@ struct File {
   std::optional<Target> target;
   std::vector<Import> imports;
   std::vector<Declaration> declarations;
-  bool has_error = false;   // something did not parse
-  bool lost_names = false;  // ... and it was a declaration: unknown names may be our fault
+  bool has_error = false;       // something did not parse
+  bool lost_names = false;      // ... and it was a declaration: unknown names may be our fault
   bool lost_structure = false;  // braces do not match
 };
 

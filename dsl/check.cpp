@@ -17,17 +17,33 @@ void add_constant(Checker& checker, uint32_t symbol) {
 
 void check_symbol(Checker& checker, uint32_t symbol) {
   switch (checker.symbols[symbol].kind) {
-    case SymbolKind::constant: return add_constant(checker, symbol);
-    case SymbolKind::extent: extent_of(checker, symbol); break;
-    case SymbolKind::structure: struct_of(checker, symbol); break;
-    case SymbolKind::sampler: sampler_of(checker, symbol); break;
-    case SymbolKind::state: state_of(checker, symbol); break;
-    case SymbolKind::feature: feature_of(checker, symbol); break;
-    case SymbolKind::condition: condition_of(checker, symbol); break;
-    case SymbolKind::set: check_engine_set(checker, symbol); break;
+    case SymbolKind::constant:
+      return add_constant(checker, symbol);
+    case SymbolKind::extent:
+      extent_of(checker, symbol);
+      break;
+    case SymbolKind::structure:
+      struct_of(checker, symbol);
+      break;
+    case SymbolKind::sampler:
+      sampler_of(checker, symbol);
+      break;
+    case SymbolKind::state:
+      state_of(checker, symbol);
+      break;
+    case SymbolKind::feature:
+      feature_of(checker, symbol);
+      break;
+    case SymbolKind::condition:
+      condition_of(checker, symbol);
+      break;
+    case SymbolKind::set:
+      check_engine_set(checker, symbol);
+      break;
     case SymbolKind::interface:
     case SymbolKind::graph:
-    case SymbolKind::technique: break;
+    case SymbolKind::technique:
+      break;
   }
 }
 
@@ -47,7 +63,8 @@ Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
   for (const Module& module : modules) check_target(checker, module.tree);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol) check_symbol(checker, symbol);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol)
-    if (checker.symbols[symbol].kind == SymbolKind::graph && !modules[checker.symbols[symbol].module].tree.lost_structure) check_graph(checker, symbol);
+    if (checker.symbols[symbol].kind == SymbolKind::graph && !modules[checker.symbols[symbol].module].tree.lost_structure)
+      check_graph(checker, symbol);
   return std::move(checker.program);
 }
 

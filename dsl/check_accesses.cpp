@@ -36,22 +36,20 @@ struct BlendWord {
   std::string_view word;
   BlendFactor factor;
 };
-constexpr BlendWord kFactors[] = {{"zero", BlendFactor::zero},
-                                  {"one", BlendFactor::one},
-                                  {"src_alpha", BlendFactor::src_alpha},
-                                  {"one_minus_src_alpha", BlendFactor::one_minus_src_alpha},
-                                  {"dst_alpha", BlendFactor::dst_alpha},
-                                  {"one_minus_dst_alpha", BlendFactor::one_minus_dst_alpha},
-                                  {"src_color", BlendFactor::src_color},
-                                  {"one_minus_src_color", BlendFactor::one_minus_src_color},
-                                  {"dst_color", BlendFactor::dst_color},
-                                  {"one_minus_dst_color", BlendFactor::one_minus_dst_color}};
+constexpr BlendWord kFactors[] = {{"zero", BlendFactor::zero},           {"one", BlendFactor::one},
+                                  {"src_alpha", BlendFactor::src_alpha}, {"one_minus_src_alpha", BlendFactor::one_minus_src_alpha},
+                                  {"dst_alpha", BlendFactor::dst_alpha}, {"one_minus_dst_alpha", BlendFactor::one_minus_dst_alpha},
+                                  {"src_color", BlendFactor::src_color}, {"one_minus_src_color", BlendFactor::one_minus_src_color},
+                                  {"dst_color", BlendFactor::dst_color}, {"one_minus_dst_color", BlendFactor::one_minus_dst_color}};
 struct BlendOpWord {
   std::string_view word;
   BlendOp op;
 };
-constexpr BlendOpWord kBlendOps[] = {
-    {"add", BlendOp::add}, {"subtract", BlendOp::subtract}, {"reverse_subtract", BlendOp::reverse_subtract}, {"min", BlendOp::min}, {"max", BlendOp::max}};
+constexpr BlendOpWord kBlendOps[] = {{"add", BlendOp::add},
+                                     {"subtract", BlendOp::subtract},
+                                     {"reverse_subtract", BlendOp::reverse_subtract},
+                                     {"min", BlendOp::min},
+                                     {"max", BlendOp::max}};
 
 template <class Row, size_t Count>
 const Row* find_word(Builder& at, const ast::Name& name, const Row (&rows)[Count], const char* what) {
@@ -75,7 +73,8 @@ void read_blend(Builder& at) {
   Blend blend;
   blend.enabled = true;
   if (const auto* op = find_word(at, node.op, kBlendOps, "blend operation")) blend.op = op->op;
-  if (node.factors.size() != 2 && node.factors.size() != 4) return fail(at, DiagnosticKind::BlendFactorCount, node.span, {std::to_string(node.factors.size())});
+  if (node.factors.size() != 2 && node.factors.size() != 4)
+    return fail(at, DiagnosticKind::BlendFactorCount, node.span, {std::to_string(node.factors.size())});
   BlendFactor factors[4] = {};
   for (size_t i = 0; i < node.factors.size(); ++i)
     if (const auto* factor = find_word(at, node.factors[i], kFactors, "blend factor")) factors[i] = factor->factor;
@@ -96,7 +95,8 @@ Role default_role(const Builder& at) {
 
 void report_unknown_role(Builder& at, const ast::Name& word) {
   Diagnostic diagnostic(DiagnosticKind::UnknownRole, word.span, {std::string(word.text)});
-  const std::string guess = closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "host"});
+  const std::string guess =
+      closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "host"});
   if (!guess.empty()) diagnostic.fix(word.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.ok = false;
@@ -131,8 +131,10 @@ bool reads_only(Role role) {
     case Role::copy_src:
     case Role::blit_src:
     case Role::resolve_src:
-    case Role::host_read: return true;
-    default: return false;
+    case Role::host_read:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -144,8 +146,10 @@ bool writes_only(Role role) {
     case Role::clear_dst:
     case Role::fill_dst:
     case Role::update_dst:
-    case Role::host_write: return true;
-    default: return false;
+    case Role::host_write:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -243,8 +247,9 @@ void move_indices(Pass& pass, const std::vector<uint32_t>& moved) {
 }
 
 const char* suffix_of(Role role) {
-  constexpr const char* kSuffixes[] = {"_sampled", "_storage", "_uniform", "_vertex", "_index", "_indirect", "_color", "_depth", "_depth", "_stencil", "_input", "_src",
-                                       "_dst",     "_src",     "_dst",     "_src",    "_dst",   "_clear",    "_fill",  "_update", "_read", "_write",   "_present", "_undefined"};
+  constexpr const char* kSuffixes[] = {"_sampled", "_storage", "_uniform", "_vertex", "_index", "_indirect", "_color",   "_depth",
+                                       "_depth",   "_stencil", "_input",   "_src",    "_dst",   "_src",      "_dst",     "_src",
+                                       "_dst",     "_clear",   "_fill",    "_update", "_read",  "_write",    "_present", "_undefined"};
   return kSuffixes[static_cast<size_t>(role)];
 }
 

@@ -108,7 +108,8 @@ bool bind_place(Walker at, const ast::Parameter& parameter, const ast::Expr& arg
   const Resource& resource = at.scope.graph.resources[binding.place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
   if (is_image == (parameter.kind == ast::Parameter::Kind::image)) return true;
-  at.checker.report(DiagnosticKind::ArgumentKind, argument.span, {resource.name, is_image ? "an image" : "a buffer", std::string(parameter.name.text), is_image ? "a buffer" : "an image"});
+  at.checker.report(DiagnosticKind::ArgumentKind, argument.span,
+                    {resource.name, is_image ? "an image" : "a buffer", std::string(parameter.name.text), is_image ? "a buffer" : "an image"});
   return false;
 }
 
@@ -151,7 +152,8 @@ std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& no
 }
 
 // A technique sees its parameters and its own module, not the names around the `use`.
-void walk_instance(Walker at, const Symbol& symbol, const ast::GraphDeclaration& technique, std::vector<Binding> bindings, const std::string& instance) {
+void walk_instance(Walker at, const Symbol& symbol, const ast::GraphDeclaration& technique, std::vector<Binding> bindings,
+                   const std::string& instance) {
   const uint32_t module = at.scope.module;
   const std::string prefix = at.scope.prefix;
   std::swap(at.scope.bindings, bindings);

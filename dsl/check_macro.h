@@ -11,5 +11,4 @@ namespace rg {
 }
 }  // namespace rg
 
-#define RG_CHECK(condition, message) \
-  ((condition) ? static_cast<void>(0) : ::rg::check_failed(#condition, message, __FILE__, __LINE__))
+#define RG_CHECK(condition, message) ((condition) ? static_cast<void>(0) : ::rg::check_failed(#condition, message, __FILE__, __LINE__))

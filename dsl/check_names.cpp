@@ -12,7 +12,9 @@ struct Named {
 };
 
 template <class Node>
-Named named(SymbolKind kind, const Node& node) { return {kind, node.name}; }
+Named named(SymbolKind kind, const Node& node) {
+  return {kind, node.name};
+}
 
 Named name_of(const ast::Declaration& declaration) {
   constexpr SymbolKind kKinds[] = {SymbolKind::constant, SymbolKind::extent,  SymbolKind::structure, SymbolKind::interface, SymbolKind::sampler,
@@ -95,7 +97,8 @@ bool fits_kind(Checker& checker, uint32_t symbol, Span span, SymbolKind kind) {
   const Symbol& found = checker.symbols[symbol];
   checker.used[symbol] = true;
   if (found.kind == kind) return true;
-  checker.report(DiagnosticKind::WrongKindOfName, span, {std::string(found.name.text), with_article(describe(found.kind)), with_article(describe(kind))})
+  checker
+      .report(DiagnosticKind::WrongKindOfName, span, {std::string(found.name.text), with_article(describe(found.kind)), with_article(describe(kind))})
       .note(DiagnosticKind::DeclaredHere, found.name.span, {std::string(found.name.text)});
   return false;
 }
@@ -145,7 +148,8 @@ std::optional<uint32_t> find_qualified(Checker& checker, uint32_t module, const 
 }  // namespace
 
 const char* describe(SymbolKind kind) {
-  constexpr const char* kNames[] = {"constant", "extent", "struct", "interface", "sampler", "state", "feature", "condition", "set", "graph", "technique"};
+  constexpr const char* kNames[] = {"constant", "extent",    "struct", "interface", "sampler",  "state",
+                                    "feature",  "condition", "set",    "graph",     "technique"};
   return kNames[static_cast<size_t>(kind)];
 }
 
@@ -156,23 +160,29 @@ std::string with_article(std::string_view noun) {
 
 std::string spelled(const ast::Expr& expr) {
   switch (expr.kind) {
-    case ast::ExprKind::name: return std::string(expr.text);
-    case ast::ExprKind::member: return spelled(expr.operands[0]) + "." + std::string(expr.text);
+    case ast::ExprKind::name:
+      return std::string(expr.text);
+    case ast::ExprKind::member:
+      return spelled(expr.operands[0]) + "." + std::string(expr.text);
     case ast::ExprKind::integer:
     case ast::ExprKind::real:
-    case ast::ExprKind::dimensions: return std::string(expr.text);
-    case ast::ExprKind::index: return spelled(expr.operands[0]) + "[" + spelled(expr.operands[1]) + "]";
+    case ast::ExprKind::dimensions:
+      return std::string(expr.text);
+    case ast::ExprKind::index:
+      return spelled(expr.operands[0]) + "[" + spelled(expr.operands[1]) + "]";
     case ast::ExprKind::call: {
       std::string arguments;
       for (size_t i = 1; i < expr.operands.size(); ++i) arguments += (i > 1 ? ", " : "") + spelled(expr.operands[i]);
       return spelled(expr.operands[0]) + "(" + arguments + ")";
     }
-    default: return "...";
+    default:
+      return "...";
   }
 }
 
 void report_duplicate(Checker& checker, const ast::Name& name, Span first) {
-  checker.report(DiagnosticKind::DuplicateName, name.span, {std::string(name.text)}).note(DiagnosticKind::DeclaredHere, first, {std::string(name.text)});
+  checker.report(DiagnosticKind::DuplicateName, name.span, {std::string(name.text)})
+      .note(DiagnosticKind::DeclaredHere, first, {std::string(name.text)});
 }
 
 bool claim_public_name(Checker& checker, const ast::Name& name) {

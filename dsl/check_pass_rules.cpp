@@ -15,9 +15,9 @@ struct Rules {
 };
 
 const char* word_of(Role role) {
-  constexpr const char* kWords[] = {"sampled", "storage", "uniform", "vertex", "index", "indirect", "color", "depth", "depth readonly", "stencil", "input",
-                                    "resolve_src", "resolve_dst", "copy_src", "copy_dst", "blit_src", "blit_dst", "clear_dst", "fill_dst", "update_dst", "host_read",
-                                    "host_write", "present", "undefined"};
+  constexpr const char* kWords[] = {"sampled",        "storage",   "uniform",  "vertex",      "index",       "indirect",   "color",    "depth",
+                                    "depth readonly", "stencil",   "input",    "resolve_src", "resolve_dst", "copy_src",   "copy_dst", "blit_src",
+                                    "blit_dst",       "clear_dst", "fill_dst", "update_dst",  "host_read",   "host_write", "present",  "undefined"};
   return kWords[static_cast<size_t>(role)];
 }
 
@@ -33,8 +33,10 @@ bool of_images(Role role) {
     case Role::index:
     case Role::indirect:
     case Role::fill_dst:
-    case Role::update_dst: return false;
-    default: return true;
+    case Role::update_dst:
+      return false;
+    default:
+      return true;
   }
 }
 
@@ -44,8 +46,10 @@ bool of_buffers(Role role) {
     case Role::copy_src:
     case Role::copy_dst:
     case Role::host_read:
-    case Role::host_write: return true;
-    default: return !of_images(role);
+    case Role::host_write:
+      return true;
+    default:
+      return !of_images(role);
   }
 }
 
@@ -53,19 +57,25 @@ bool of_pass(Role role, PassKind kind) {
   switch (role) {
     case Role::sampled:
     case Role::storage:
-    case Role::uniform: return kind == PassKind::raster || kind == PassKind::compute;
-    case Role::indirect: return kind == PassKind::raster || kind == PassKind::compute;
+    case Role::uniform:
+      return kind == PassKind::raster || kind == PassKind::compute;
+    case Role::indirect:
+      return kind == PassKind::raster || kind == PassKind::compute;
     case Role::vertex:
     case Role::index:
     case Role::input:
     case Role::color:
     case Role::depth:
     case Role::depth_readonly:
-    case Role::stencil: return kind == PassKind::raster;
-    case Role::resolve_dst: return kind == PassKind::raster || kind == PassKind::transfer;
+    case Role::stencil:
+      return kind == PassKind::raster;
+    case Role::resolve_dst:
+      return kind == PassKind::raster || kind == PassKind::transfer;
     case Role::host_read:
-    case Role::host_write: return kind == PassKind::host;
-    default: return kind == PassKind::transfer;
+    case Role::host_write:
+      return kind == PassKind::host;
+    default:
+      return kind == PassKind::transfer;
   }
 }
 
@@ -112,12 +122,14 @@ void check_sampler(const Rules& rules, const Access& access, const FormatInfo& f
   const Sampler& sampler = rules.checker.program.samplers[access.sampler];
   const Resource& image = rules.resource(access);
   if (sampler.compare && access.range.aspects != aspect_depth) {
-    rules.checker.report(DiagnosticKind::ComparesColor, access.span, {sampler.name, image.name, format.name}).note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
+    rules.checker.report(DiagnosticKind::ComparesColor, access.span, {sampler.name, image.name, format.name})
+        .note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
     return;
   }
   const bool integers = format.is_integer() || access.range.aspects == aspect_stencil;
   if (integers && (sampler.filter == Filter::linear || sampler.mip_filter == Filter::linear))
-    rules.checker.report(DiagnosticKind::FiltersIntegers, access.span, {sampler.name, image.name, format.name}).note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
+    rules.checker.report(DiagnosticKind::FiltersIntegers, access.span, {sampler.name, image.name, format.name})
+        .note(DiagnosticKind::DeclaredHere, sampler.span, {sampler.name});
 }
 
 void check_mips(const Rules& rules, const Access& access) {
@@ -140,7 +152,10 @@ void check_image_use(const Rules& rules, const Access& access) {
 
 void check_stages(const Rules& rules, const Access& access) {
   constexpr uint32_t kRaster = stage_vertex | stage_tess_control | stage_tess_eval | stage_geometry | stage_fragment;
-  const uint32_t allowed = rules.pass.kind == PassKind::raster ? kRaster : rules.pass.kind == PassKind::compute ? uint32_t{stage_compute} : rules.pass.kind == PassKind::transfer ? uint32_t{stage_transfer} : uint32_t{stage_host};
+  const uint32_t allowed = rules.pass.kind == PassKind::raster     ? kRaster
+                           : rules.pass.kind == PassKind::compute  ? uint32_t{stage_compute}
+                           : rules.pass.kind == PassKind::transfer ? uint32_t{stage_transfer}
+                                                                   : uint32_t{stage_host};
   if ((access.stages & ~allowed) != 0) rules.checker.report(DiagnosticKind::StageOfPass, access.span, {word_of(rules.pass.kind)});
 }
 
@@ -152,7 +167,8 @@ int64_t side(const Rules& rules, ExprId axis, uint32_t mip, const std::vector<in
 
 std::string size_text(const Rules& rules, const Access& access, const std::vector<int64_t>& extents) {
   const Resource& image = rules.resource(access);
-  return std::to_string(side(rules, image.width, access.range.mip, extents)) + "x" + std::to_string(side(rules, image.height, access.range.mip, extents));
+  return std::to_string(side(rules, image.width, access.range.mip, extents)) + "x" +
+         std::to_string(side(rules, image.height, access.range.mip, extents));
 }
 
 void compare_attachments(const Rules& rules, const Access& first, const Access& other) {
@@ -177,8 +193,10 @@ void check_attachments(const Rules& rules) {
   for (const Access& access : rules.pass.accesses) {
     if (!is_attachment(access.role)) continue;
     colors += access.role == Role::color;
-    if (first) compare_attachments(rules, *first, access);
-    else first = &access;
+    if (first)
+      compare_attachments(rules, *first, access);
+    else
+      first = &access;
   }
   if (colors > 8) rules.checker.report(DiagnosticKind::TooManyColors, rules.pass.span, {rules.pass.name, std::to_string(colors)});
 }
@@ -220,7 +238,9 @@ void check_conflicts(const Rules& rules) {
     auto& others = seen[access.resource.value];
     for (const Access* other : others) {
       if (!overlap(rules, *other, access) || may_stand_together(*other, access)) continue;
-      rules.checker.report(DiagnosticKind::AccessesConflict, access.span, {rules.pass.name, rules.resource(access).name, word_of(other->role), word_of(access.role)})
+      rules.checker
+          .report(DiagnosticKind::AccessesConflict, access.span,
+                  {rules.pass.name, rules.resource(access).name, word_of(other->role), word_of(access.role)})
           .note(DiagnosticKind::OtherAccess, other->span);
       break;
     }

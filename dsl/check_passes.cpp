@@ -34,7 +34,9 @@ std::optional<Stage> stage_of(std::string_view path) {
   return std::nullopt;
 }
 
-bool stage_fits(PassKind kind, Stage stage) { return (kind == PassKind::compute) == (stage == stage_compute) && (kind == PassKind::compute || kind == PassKind::raster); }
+bool stage_fits(PassKind kind, Stage stage) {
+  return (kind == PassKind::compute) == (stage == stage_compute) && (kind == PassKind::compute || kind == PassKind::raster);
+}
 
 void add_shader(Builder& at, const ast::ShaderStatement::Path& path) {
   const std::string shown(path.text);
@@ -96,9 +98,11 @@ std::optional<uint32_t> add_indirect(Builder& at, const ast::Expr& expr, uint32_
   const Place place = find_place(at.checker, at.scope, expr);
   if (!place.ok()) return at.out.dropped = true, std::nullopt;
   const Resource& buffer = at.scope.graph.resources[place.resource];
-  if (buffer.kind != ResourceKind::buffer) return fail(at, DiagnosticKind::RoleOfKind, expr.span, {buffer.name, "an image", "indirect"}), std::nullopt;
+  if (buffer.kind != ResourceKind::buffer)
+    return fail(at, DiagnosticKind::RoleOfKind, expr.span, {buffer.name, "an image", "indirect"}), std::nullopt;
   const bool simple = !buffer.element.record.valid();
-  if (!simple && buffer.stride < bytes) return fail(at, DiagnosticKind::IndirectTooSmall, expr.span, {buffer.name, std::to_string(buffer.stride), std::to_string(bytes)}), std::nullopt;
+  if (!simple && buffer.stride < bytes)
+    return fail(at, DiagnosticKind::IndirectTooSmall, expr.span, {buffer.name, std::to_string(buffer.stride), std::to_string(bytes)}), std::nullopt;
   return add_plain_access(at.scope, at.out, place, Mode::read, Role::indirect);
 }
 
@@ -109,7 +113,10 @@ void visit(Builder& at, const ast::DispatchStatement& node) {
   constexpr uint32_t kDispatchBytes = 12;  // VkDispatchIndirectCommand
   Dispatch& dispatch = at.out.pass.dispatch;
   const std::string_view how = node.how.text;
-  dispatch.kind = how == "over" ? DispatchKind::over : how == "groups" ? DispatchKind::groups : how == "indirect" ? DispatchKind::indirect : DispatchKind::host;
+  dispatch.kind = how == "over"       ? DispatchKind::over
+                  : how == "groups"   ? DispatchKind::groups
+                  : how == "indirect" ? DispatchKind::indirect
+                                      : DispatchKind::host;
   if (!node.size) return;
   if (dispatch.kind != DispatchKind::indirect) return read_dispatch_size(at, *node.size);
   dispatch.arguments = add_indirect(at, *node.size, kDispatchBytes).value_or(kAll);
@@ -130,8 +137,10 @@ void read_indirect_draw(Builder& at, const ast::DrawStatement& node) {
   draw.stride = node.indexed ? 20 : 16;  // VkDrawIndexedIndirectCommand, VkDrawIndirectCommand
   if (node.max_draws) {
     const auto most = evaluate_integer(at.checker, &at.scope, at.scope.module, *node.max_draws, 1, UINT32_MAX);
-    if (most) draw.max_draws = static_cast<uint32_t>(*most);
-    else at.out.dropped = true;
+    if (most)
+      draw.max_draws = static_cast<uint32_t>(*most);
+    else
+      at.out.dropped = true;
   }
   const auto arguments = add_indirect(at, *node.arguments, draw.stride);
   if (!arguments) return;
@@ -143,11 +152,13 @@ void read_indirect_draw(Builder& at, const ast::DrawStatement& node) {
 
 void read_per_draw(Builder& at, const ast::PerDraw& node) {
   constexpr uint32_t kMaxPushBytes = 128;  // what every Vulkan device has
-  const StructId type = node.declaration ? declare_struct(at.checker, at.scope.module, *node.declaration) : find_struct(at.checker, at.scope.module, *node.type);
+  const StructId type =
+      node.declaration ? declare_struct(at.checker, at.scope.module, *node.declaration) : find_struct(at.checker, at.scope.module, *node.type);
   if (!type.valid()) return void(at.out.dropped = true);
   const Struct& record = at.checker.program.structs[type];
   const Span span = node.type ? node.type->span : node.name.span;
-  if (record.size430 > kMaxPushBytes) return fail(at, DiagnosticKind::PushConstantsTooLarge, span, {record.name, std::to_string(record.size430), std::to_string(kMaxPushBytes)});
+  if (record.size430 > kMaxPushBytes)
+    return fail(at, DiagnosticKind::PushConstantsTooLarge, span, {record.name, std::to_string(record.size430), std::to_string(kMaxPushBytes)});
   at.out.pass.draw.per_draw = type;
 }
 
@@ -157,8 +168,10 @@ void visit(Builder& at, const ast::DrawStatement& node) {
   at.has_draw = true;
   at.draw_span = node.span;
   Draw& draw = at.out.pass.draw;
-  if (node.host) draw.kind = DrawKind::host;
-  else if (node.indirect && node.arguments) read_indirect_draw(at, node);
+  if (node.host)
+    draw.kind = DrawKind::host;
+  else if (node.indirect && node.arguments)
+    read_indirect_draw(at, node);
   else if (node.vertices) {
     draw.kind = DrawKind::direct;
     draw.vertices = count_expr(at, node.vertices);
@@ -167,8 +180,10 @@ void visit(Builder& at, const ast::DrawStatement& node) {
   if (node.per_draw) read_per_draw(at, *node.per_draw);
   for (const ast::Expr& name : node.vertex) {
     const StructId type = find_struct(at.checker, at.scope.module, name);
-    if (!type.valid()) at.out.dropped = true;
-    else draw.vertex.push_back(type);
+    if (!type.valid())
+      at.out.dropped = true;
+    else
+      draw.vertex.push_back(type);
   }
 }
 
@@ -181,7 +196,8 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
     at.out.pass.params.push_back(at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span}));
     return;
   }
-  const auto bound = std::find_if(at.scope.bindings.rbegin(), at.scope.bindings.rend(), [&](const Binding& binding) { return binding.name == node.name.text; });
+  const auto bound =
+      std::find_if(at.scope.bindings.rbegin(), at.scope.bindings.rend(), [&](const Binding& binding) { return binding.name == node.name.text; });
   if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back(bound->params);
   const auto found = at.scope.params.find(name);
   if (found != at.scope.params.end()) return at.out.pass.params.push_back(found->second);
@@ -258,7 +274,8 @@ void check_work(Builder& at) {
   if (at.out.dropped) return;
   const bool shaders = !pass.shaders.empty();
   if (pass.kind == PassKind::compute && shaders && !at.has_dispatch) fail(at, DiagnosticKind::ShaderWithoutDispatch, at.shader_span, {pass.name});
-  if (pass.kind == PassKind::compute && !shaders && at.has_dispatch && pass.dispatch.kind != DispatchKind::host) fail(at, DiagnosticKind::DispatchWithoutShader, pass.span, {pass.name});
+  if (pass.kind == PassKind::compute && !shaders && at.has_dispatch && pass.dispatch.kind != DispatchKind::host)
+    fail(at, DiagnosticKind::DispatchWithoutShader, pass.span, {pass.name});
   if (pass.kind == PassKind::raster && shaders && !at.has_draw) fail(at, DiagnosticKind::ShaderWithoutDraw, at.shader_span, {pass.name});
   const bool host_draws = pass.draw.kind == DrawKind::host || pass.draw.kind == DrawKind::none;
   if (pass.kind == PassKind::raster && !shaders && !host_draws) fail(at, DiagnosticKind::DrawWithoutShader, at.draw_span, {pass.name});

@@ -1,4 +1,5 @@
-// RES: `name`, `name[i]`, `parameter.member`, then `.mip(i)`, `.mips(a, n)`, `.layer(i)`, `.layers(a, n)`, `.depth`, `.stencil`, `.bytes(o, n)`, `.prev(k)`.
+// RES: `name`, `name[i]`, `parameter.member`, then `.mip(i)`, `.mips(a, n)`, `.layer(i)`, `.layers(a, n)`, `.depth`, `.stencil`, `.bytes(o, n)`,
+// `.prev(k)`.
 #include <algorithm>
 
 #include "dsl/check_state.h"
@@ -233,7 +234,8 @@ Place called_place(Walk walk, const Expr& call) {
   const Resource& resource = walk.scope.graph.resources[place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
   const bool fits = part->name == "prev" || part->of_images == is_image;
-  if (!fits) return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {resource.name, is_image ? "an image" : "a buffer", std::string(part->name)});
+  if (!fits)
+    return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {resource.name, is_image ? "an image" : "a buffer", std::string(part->name)});
   if (part->name == "mip" || part->name == "mips") return take_mips(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "layer" || part->name == "layers") return take_layers(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "prev") return take_previous(walk, call, std::move(place));
@@ -252,8 +254,10 @@ Value image_size(Checker& checker, const Resource& image, const Place& place) {
     }
     Scalar64 extent;
     const rg::dsl::Expr& node = checker.program.exprs[axes[axis]];
-    if (node.op == ExprOp::constant) extent.value = node.value;
-    else extent.expr = axes[axis];
+    if (node.op == ExprOp::constant)
+      extent.value = node.value;
+    else
+      extent.expr = axes[axis];
     Scalar64 mip;
     mip.value = place.range.mip;
     size.at[axis] = combine(checker, ExprOp::mip, extent, mip, place.span);
@@ -286,12 +290,23 @@ Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr) {
   const Walk walk{checker, scope};
   Place place;
   switch (expr.kind) {
-    case ExprKind::error: scope.incomplete = true; return {};
-    case ExprKind::name: place = find_root(walk, expr); break;
-    case ExprKind::index: place = find_indexed(walk, expr); break;
-    case ExprKind::member: place = member_place(walk, expr); break;
-    case ExprKind::call: place = called_place(walk, expr); break;
-    default: return fail(walk, DiagnosticKind::NotAPlace, expr.span, {});
+    case ExprKind::error:
+      scope.incomplete = true;
+      return {};
+    case ExprKind::name:
+      place = find_root(walk, expr);
+      break;
+    case ExprKind::index:
+      place = find_indexed(walk, expr);
+      break;
+    case ExprKind::member:
+      place = member_place(walk, expr);
+      break;
+    case ExprKind::call:
+      place = called_place(walk, expr);
+      break;
+    default:
+      return fail(walk, DiagnosticKind::NotAPlace, expr.span, {});
   }
   if (place.ok()) scope.resource_used[place.resource.value] = true;
   return place;
@@ -319,8 +334,10 @@ Value size_of(Checker& checker, GraphScope& scope, const Place& place) {
   }
   Value size = integer_value(0);
   const rg::dsl::Expr& node = checker.program.exprs[resource.count];
-  if (node.op == ExprOp::constant) size = integer_value(node.value);
-  else size.at[0].expr = resource.count;
+  if (node.op == ExprOp::constant)
+    size = integer_value(node.value);
+  else
+    size.at[0].expr = resource.count;
   return size;
 }
 

@@ -17,19 +17,40 @@ struct RoleWord {
   Role role;
 };
 constexpr RoleWord kRoles[] = {
-    {"sampled", Role::sampled},     {"storage", Role::storage},     {"uniform", Role::uniform},       {"vertex", Role::vertex},     {"index", Role::index},
-    {"indirect", Role::indirect},   {"color", Role::color},         {"depth", Role::depth},           {"stencil", Role::stencil},   {"input", Role::input},
-    {"resolve_src", Role::resolve_src}, {"resolve_dst", Role::resolve_dst}, {"copy_src", Role::copy_src}, {"copy_dst", Role::copy_dst}, {"blit_src", Role::blit_src},
-    {"blit_dst", Role::blit_dst},   {"clear_dst", Role::clear_dst}, {"fill_dst", Role::fill_dst},     {"update_dst", Role::update_dst}, {"host", Role::host_read},
-    {"host_read", Role::host_read}, {"host_write", Role::host_write}, {"present", Role::present},     {"undefined", Role::undefined}, {"depth_readonly", Role::depth_readonly},
+    {"sampled", Role::sampled},
+    {"storage", Role::storage},
+    {"uniform", Role::uniform},
+    {"vertex", Role::vertex},
+    {"index", Role::index},
+    {"indirect", Role::indirect},
+    {"color", Role::color},
+    {"depth", Role::depth},
+    {"stencil", Role::stencil},
+    {"input", Role::input},
+    {"resolve_src", Role::resolve_src},
+    {"resolve_dst", Role::resolve_dst},
+    {"copy_src", Role::copy_src},
+    {"copy_dst", Role::copy_dst},
+    {"blit_src", Role::blit_src},
+    {"blit_dst", Role::blit_dst},
+    {"clear_dst", Role::clear_dst},
+    {"fill_dst", Role::fill_dst},
+    {"update_dst", Role::update_dst},
+    {"host", Role::host_read},
+    {"host_read", Role::host_read},
+    {"host_write", Role::host_write},
+    {"present", Role::present},
+    {"undefined", Role::undefined},
+    {"depth_readonly", Role::depth_readonly},
 };
 
 struct StageWord {
   std::string_view word;
   Stage stage;
 };
-constexpr StageWord kStages[] = {{"vertex", stage_vertex},     {"tess_control", stage_tess_control}, {"tess_eval", stage_tess_eval}, {"geometry", stage_geometry},
-                                 {"fragment", stage_fragment}, {"compute", stage_compute},           {"transfer", stage_transfer},   {"host", stage_host}};
+constexpr StageWord kStages[] = {
+    {"vertex", stage_vertex},     {"tess_control", stage_tess_control}, {"tess_eval", stage_tess_eval}, {"geometry", stage_geometry},
+    {"fragment", stage_fragment}, {"compute", stage_compute},           {"transfer", stage_transfer},   {"host", stage_host}};
 
 struct Builder {
   Checker& checker;
@@ -67,7 +88,8 @@ void read_image_setting(Builder& at, const ast::Setting& setting) {
   if (word == "mips") set_count(at, setting, 16, resource.mips);
   if (word == "layers") set_count(at, setting, kMaxLayers, resource.layers);
   if (word == "samples") set_count(at, setting, 64, resource.samples);
-  if (word == "samples" && (resource.samples & (resource.samples - 1)) != 0) fail(at, DiagnosticKind::SamplesNotPowerOfTwo, setting.span, {std::to_string(resource.samples)});
+  if (word == "samples" && (resource.samples & (resource.samples - 1)) != 0)
+    fail(at, DiagnosticKind::SamplesNotPowerOfTwo, setting.span, {std::to_string(resource.samples)});
   if (word == "cube") resource.dimension = Dimension::cube;
   if (word == "1d") resource.dimension = Dimension::d1;
   if (word == "3d") resource.dimension = Dimension::d3;
@@ -153,7 +175,9 @@ void check_mips(Builder& at) {
   const int64_t longest = longest_side(at, maximum_extents(at.checker.program));
   uint32_t chain = 0;
   for (int64_t side = longest; side > 0; side /= 2) ++chain;
-  if (at.resource.mips > chain) fail(at, DiagnosticKind::TooManyMips, at.node.size->span, {at.resource.name, std::to_string(at.resource.mips), std::to_string(longest), std::to_string(chain)});
+  if (at.resource.mips > chain)
+    fail(at, DiagnosticKind::TooManyMips, at.node.size->span,
+         {at.resource.name, std::to_string(at.resource.mips), std::to_string(longest), std::to_string(chain)});
 }
 
 void check_image_shape(Builder& at) {
@@ -178,14 +202,17 @@ void read_image(Builder& at) {
 void read_count(Builder& at) {
   const ast::TypeName& type = at.node.element;
   if (!type.count) {
-    if (!type.unsized) fail(at, DiagnosticKind::BufferNeedsCount, type.span, {at.resource.name});
-    else if (at.resource.lifetime != Lifetime::imported) fail(at, DiagnosticKind::UnsizedBuffer, type.span, {at.resource.name});
+    if (!type.unsized)
+      fail(at, DiagnosticKind::BufferNeedsCount, type.span, {at.resource.name});
+    else if (at.resource.lifetime != Lifetime::imported)
+      fail(at, DiagnosticKind::UnsizedBuffer, type.span, {at.resource.name});
     return;
   }
   const Value count = evaluate_expr(at.checker, &at.scope, at.scope.module, *type.count);
   if (!count.ok()) return void(at.ok = false);
   if (count.kind != Value::Kind::integer || count.axes != 1) return fail(at, DiagnosticKind::NotAnInteger, type.count->span);
-  if (count.at[0].known() && (count.at[0].value < 1 || count.at[0].value > UINT32_MAX)) return fail(at, DiagnosticKind::BufferSize, type.count->span, {at.resource.name, std::to_string(count.at[0].value)});
+  if (count.at[0].known() && (count.at[0].value < 1 || count.at[0].value > UINT32_MAX))
+    return fail(at, DiagnosticKind::BufferSize, type.count->span, {at.resource.name, std::to_string(count.at[0].value)});
   at.resource.count = to_expr(at.checker, count.at[0]);
 }
 
@@ -264,8 +291,10 @@ void build(Builder& at) {
   if (at.node.has_error) at.ok = false;
   if (!at.ok) return;
   read_settings(at);
-  if (at.node.is_buffer) read_buffer(at);
-  else read_image(at);
+  if (at.node.is_buffer)
+    read_buffer(at);
+  else
+    read_image(at);
   read_boundaries(at);
   read_init(at);
 }
@@ -321,13 +350,17 @@ void set_image_clear(ClearValue& out, const FormatInfo& format, uint32_t aspects
   const bool is_color = format.is_color();
   for (size_t i = 0; i < 4; ++i) {
     const double number = numbers.size() == 1 ? numbers[0] : i < numbers.size() ? numbers[i] : 0.0;
-    if (is_color && out.integer) out.u[i] = format.numeric == Numeric::sint ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
-    else if (is_color) out.f[i] = static_cast<float>(number);
+    if (is_color && out.integer)
+      out.u[i] = format.numeric == Numeric::sint ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
+    else if (is_color)
+      out.f[i] = static_cast<float>(number);
   }
   if (is_color) return;
   const bool depth = ((aspects ? aspects : format.aspects) & aspect_depth) != 0;
-  if (depth) out.f[0] = static_cast<float>(numbers[0]);
-  else out.u[1] = to_unsigned(numbers[0]);
+  if (depth)
+    out.f[0] = static_cast<float>(numbers[0]);
+  else
+    out.u[1] = to_unsigned(numbers[0]);
   if (depth && numbers.size() > 1) out.u[1] = to_unsigned(numbers[1]);
 }
 
@@ -335,8 +368,10 @@ void set_buffer_clear(ClearValue& out, Scalar scalar, double number) {
   const auto f = static_cast<float>(number);
   out.integer = scalar != Scalar::f32;
   out.f[0] = f;
-  if (scalar == Scalar::f32) std::memcpy(&out.u[0], &f, sizeof f);
-  else out.u[0] = scalar == Scalar::i32 ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
+  if (scalar == Scalar::f32)
+    std::memcpy(&out.u[0], &f, sizeof f);
+  else
+    out.u[0] = scalar == Scalar::i32 ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
 }
 
 std::vector<double> numbers_of(Checker& checker, const Value& value, Span span) {
@@ -393,7 +428,8 @@ ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& exp
   }
   const FormatInfo& format = info(resource.format);
   const size_t most = format.is_color() ? 4 : 2;
-  if (numbers.size() > most) checker.report(DiagnosticKind::ClearComponents, expr.span, {resource.name, std::to_string(most), std::to_string(numbers.size())});
+  if (numbers.size() > most)
+    checker.report(DiagnosticKind::ClearComponents, expr.span, {resource.name, std::to_string(most), std::to_string(numbers.size())});
   if (!fits_format(format, numbers)) checker.report(DiagnosticKind::ClearOfFormat, expr.span, {resource.name, format.name});
   const bool depth = (format.aspects & aspect_depth) != 0 && aspects != aspect_stencil;
   if (depth && (numbers[0] < 0 || numbers[0] > 1)) checker.report(DiagnosticKind::DepthClearRange, expr.span, {resource.name});
@@ -429,10 +465,14 @@ void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDec
       report_duplicate(checker, parameter.name, at->second);
       continue;
     }
-    if (parameter.kind == ast::Parameter::Kind::params) declare_params(checker, scope, parameter);
-    else if (parameter.kind == ast::Parameter::Kind::surface) declare_surface(checker, scope, parameter);
-    else if (parameter.kind == ast::Parameter::Kind::interface) declare_interface(checker, scope, parameter);
-    else checker.report(DiagnosticKind::ParameterOfTechnique, parameter.span, {std::string(parameter.name.text)});
+    if (parameter.kind == ast::Parameter::Kind::params)
+      declare_params(checker, scope, parameter);
+    else if (parameter.kind == ast::Parameter::Kind::surface)
+      declare_surface(checker, scope, parameter);
+    else if (parameter.kind == ast::Parameter::Kind::interface)
+      declare_interface(checker, scope, parameter);
+    else
+      checker.report(DiagnosticKind::ParameterOfTechnique, parameter.span, {std::string(parameter.name.text)});
   }
 }
 

@@ -22,7 +22,7 @@ struct Scalar64 {
 };
 struct Value {
   enum class Kind : uint8_t { error, integer, real, list } kind = Kind::error;
-  uint8_t axes = 1;             // integer: 1 is a number, 2 and 3 are sizes
+  uint8_t axes = 1;  // integer: 1 is a number, 2 and 3 are sizes
   Scalar64 at[3];
   double real = 0;              // also set for known integers
   std::vector<double> numbers;  // list
@@ -44,7 +44,7 @@ struct Symbol {
   uint32_t id = UINT32_MAX;  // row of the program's table; none after an error
   Value value;               // constants
 };
-struct Visible {  // what a name means inside one module
+struct Visible {                                     // what a name means inside one module
   uint32_t symbol = UINT32_MAX, other = UINT32_MAX;  // other: a second module declares it too
 };
 
@@ -74,7 +74,7 @@ struct Checker {
   std::vector<bool> used;                                                    // by symbol
   std::unordered_map<NodeKey, ExprId, NodeHash> nodes;                       // equal expressions are one row
   std::unordered_map<std::string, Span> public_names;                        // structs and constants: shaders and C++ see them unqualified
-  bool lost_names = false;  // a name that is not found may be in what did not parse
+  bool lost_names = false;                                                   // a name that is not found may be in what did not parse
 
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
     return diagnostics.report(kind, span, std::move(arguments));
@@ -108,20 +108,20 @@ struct Binding {  // of a loop variable or a technique's parameter
 struct GraphScope {
   Graph graph;
   uint32_t module = 0;
-  std::string prefix;               // of names inside a technique's instance
-  std::vector<Binding> bindings;    // innermost last
+  std::string prefix;             // of names inside a technique's instance
+  std::vector<Binding> bindings;  // innermost last
   Guard guard;
   std::vector<ConditionId> conditions;
   std::unordered_map<std::string, ResourceId> resources;
   std::unordered_map<std::string, PassId> passes;
   std::unordered_map<std::string, ParamsId> params;
-  std::unordered_map<std::string, bool> families;  // names declared with an index: `pyramid` of `pyramid[2]`
-  std::unordered_map<std::string, bool> failed;    // declared, but wrong: stay silent about them
+  std::unordered_map<std::string, bool> families;        // names declared with an index: `pyramid` of `pyramid[2]`
+  std::unordered_map<std::string, bool> failed;          // declared, but wrong: stay silent about them
   std::unordered_map<std::string, uint32_t> interfaces;  // parameter -> symbol
   std::vector<bool> resource_used;
   uint32_t use_depth = 0;
   uint64_t unrolled = 0;
-  bool incomplete = false;          // some access was dropped after an error: whole-graph facts would mislead
+  bool incomplete = false;  // some access was dropped after an error: whole-graph facts would mislead
 };
 
 // ---- check_names.cpp --------------------------------------------------------------------------------------------
@@ -164,7 +164,6 @@ StateId state_of(Checker& checker, uint32_t symbol);
 FeatureId feature_of(Checker& checker, uint32_t symbol);
 ConditionId condition_of(Checker& checker, uint32_t symbol);
 void check_engine_set(Checker& checker, uint32_t symbol);
-std::optional<Compare> find_compare(std::string_view word);
 
 // ---- check_resources.cpp ----------------------------------------------------------------------------------------
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
@@ -190,8 +189,8 @@ uint32_t layer_count(const Resource& resource, const Range& range);
 void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaration& declaration);
 struct PassScope {
   Pass pass;
-  std::vector<bool> may;       // by access: the work may leave its range as it was
-  bool dropped = false;        // some statement was wrong
+  std::vector<bool> may;  // by access: the work may leave its range as it was
+  bool dropped = false;   // some statement was wrong
 };
 std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const ast::AccessStatement& statement);
 uint32_t add_plain_access(GraphScope& scope, PassScope& out, const Place& place, Mode mode, Role role);

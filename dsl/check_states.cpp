@@ -12,9 +12,14 @@ struct Word {
   Enum value;
 };
 
-constexpr Word<Compare> kCompares[] = {{"never", Compare::never},     {"less", Compare::less},           {"equal", Compare::equal},
-                                       {"less_equal", Compare::less_equal}, {"greater", Compare::greater}, {"not_equal", Compare::not_equal},
-                                       {"greater_equal", Compare::greater_equal}, {"always", Compare::always}};
+constexpr Word<Compare> kCompares[] = {{"never", Compare::never},
+                                       {"less", Compare::less},
+                                       {"equal", Compare::equal},
+                                       {"less_equal", Compare::less_equal},
+                                       {"greater", Compare::greater},
+                                       {"not_equal", Compare::not_equal},
+                                       {"greater_equal", Compare::greater_equal},
+                                       {"always", Compare::always}};
 constexpr Word<Filter> kFilters[] = {{"nearest", Filter::nearest}, {"linear", Filter::linear}};
 constexpr Word<AddressMode> kAddresses[] = {
     {"repeat", AddressMode::repeat}, {"mirror", AddressMode::mirror}, {"clamp", AddressMode::clamp}, {"border", AddressMode::border}};
@@ -66,7 +71,8 @@ void read_sampler_setting(Checker& checker, uint32_t module, const ast::Setting&
   if (word != "anisotropy" || setting.values.empty()) return;
   const auto value = evaluate_number(checker, nullptr, module, setting.values[0]);
   if (!value) return;
-  if (*value < 1 || *value > 16) checker.report(DiagnosticKind::OutOfRange, setting.values[0].span, {std::to_string(static_cast<int64_t>(*value)), "1", "16"});
+  if (*value < 1 || *value > 16)
+    checker.report(DiagnosticKind::OutOfRange, setting.values[0].span, {std::to_string(static_cast<int64_t>(*value)), "1", "16"});
   sampler.max_anisotropy = static_cast<float>(*value);
 }
 
@@ -107,12 +113,6 @@ void read_feature(Checker& checker, const ast::FeatureDeclaration& node, Feature
 }
 
 }  // namespace
-
-std::optional<Compare> find_compare(std::string_view word) {
-  for (const auto& row : kCompares)
-    if (row.word == word) return row.value;
-  return std::nullopt;
-}
 
 SamplerId sampler_of(Checker& checker, uint32_t symbol) {
   if (first_visit(checker.symbols[symbol])) {

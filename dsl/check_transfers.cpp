@@ -56,7 +56,8 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
 // In a raster pass the source is the colour attachment itself.
 std::optional<uint32_t> find_attachment(Checker& checker, const GraphScope& scope, const PassScope& out, const Place& src) {
   const auto& accesses = out.pass.accesses;
-  const auto at = std::find_if(accesses.begin(), accesses.end(), [&](const Access& access) { return access.resource == src.resource && access.role == Role::color; });
+  const auto at = std::find_if(accesses.begin(), accesses.end(),
+                               [&](const Access& access) { return access.resource == src.resource && access.role == Role::color; });
   if (at != accesses.end()) return static_cast<uint32_t>(at - accesses.begin());
   checker.report(DiagnosticKind::ResolveOfOther, src.span, {scope.graph.resources[src.resource].name, out.pass.name});
   return std::nullopt;
@@ -75,7 +76,8 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
 
 void drop(GraphScope& scope, PassScope& out) { out.dropped = scope.incomplete = true; }
 
-void finish(Checker& checker, GraphScope& scope, PassScope& out, const TransferWord& word, const ast::TransferStatement& node, Transfer transfer, const Place& dst) {
+void finish(Checker& checker, GraphScope& scope, PassScope& out, const TransferWord& word, const ast::TransferStatement& node, Transfer transfer,
+            const Place& dst) {
   if (!check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
   transfer.dst = add_plain_access(scope, out, dst, Mode::write, word.dst);
   const Access& access = out.pass.accesses[transfer.dst];

@@ -28,19 +28,29 @@ Value real_value(double real) {
 
 bool fold(ExprOp op, int64_t a, int64_t b, int64_t& out) {
   switch (op) {
-    case ExprOp::add: return !__builtin_add_overflow(a, b, &out);
-    case ExprOp::sub: return !__builtin_sub_overflow(a, b, &out);
-    case ExprOp::mul: return !__builtin_mul_overflow(a, b, &out);
+    case ExprOp::add:
+      return !__builtin_add_overflow(a, b, &out);
+    case ExprOp::sub:
+      return !__builtin_sub_overflow(a, b, &out);
+    case ExprOp::mul:
+      return !__builtin_mul_overflow(a, b, &out);
     case ExprOp::floor_div:
     case ExprOp::ceil_div:
       if (b == 0 || (a == INT64_MIN && b == -1)) return false;
       out = a / b;
       if (a % b != 0 && ((a < 0) != (b < 0)) == (op == ExprOp::floor_div)) out += op == ExprOp::floor_div ? -1 : 1;
       return true;
-    case ExprOp::min: out = std::min(a, b); return true;
-    case ExprOp::max: out = std::max(a, b); return true;
-    case ExprOp::mip: out = std::max<int64_t>(b >= 63 ? 0 : a >> b, 1); return true;
-    default: return false;
+    case ExprOp::min:
+      out = std::min(a, b);
+      return true;
+    case ExprOp::max:
+      out = std::max(a, b);
+      return true;
+    case ExprOp::mip:
+      out = std::max<int64_t>(b >= 63 ? 0 : a >> b, 1);
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -170,7 +180,8 @@ bool is_unknown_module(const Evaluator& at, const ast::Expr& owner) {
 
 Value member(Evaluator& at, const ast::Expr& expr) {
   if (at.scope && names_resource(*at.scope, expr)) {
-    const bool part = expr.text == "width" || expr.text == "height" || expr.text == "area" || expr.text == "x" || expr.text == "y" || expr.text == "z";
+    const bool part =
+        expr.text == "width" || expr.text == "height" || expr.text == "area" || expr.text == "x" || expr.text == "y" || expr.text == "z";
     if (!part) return size_of(at.checker, *at.scope, find_place(at.checker, *at.scope, expr));
   } else if (const auto symbol = peek_symbol(at.checker, at.module, expr)) {
     return from_symbol(at, *symbol, expr);
@@ -205,9 +216,12 @@ Value least_or_greatest(Evaluator& at, const ast::Expr& call, ExprOp op) {
     const Value next = evaluate(at, call.operands[i]);
     if (!result.ok() || !next.ok()) return error_value();
     const bool integers = result.kind == Value::Kind::integer && next.kind == Value::Kind::integer;
-    if (integers) result = apply_axes(at, op, result, next, call.span);
-    else if (result.is_number() && next.is_number()) result = real_value(op == ExprOp::min ? std::min(result.real, next.real) : std::max(result.real, next.real));
-    else return wrong_operand(at, call, "numbers of one kind");
+    if (integers)
+      result = apply_axes(at, op, result, next, call.span);
+    else if (result.is_number() && next.is_number())
+      result = real_value(op == ExprOp::min ? std::min(result.real, next.real) : std::max(result.real, next.real));
+    else
+      return wrong_operand(at, call, "numbers of one kind");
   }
   return result;
 }
@@ -263,7 +277,8 @@ Value from_symbol(Evaluator& at, uint32_t symbol, const ast::Expr& expr) {
   const Symbol& found = at.checker.symbols[symbol];
   if (found.kind == SymbolKind::constant) return constant_value(at.checker, symbol);
   if (found.kind == SymbolKind::extent) return extent_value(at.checker, symbol);
-  at.checker.report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(found.name.text), with_article(describe(found.kind)), "a number or a size"})
+  at.checker
+      .report(DiagnosticKind::WrongKindOfName, expr.span, {std::string(found.name.text), with_article(describe(found.kind)), "a number or a size"})
       .note(DiagnosticKind::DeclaredHere, found.name.span, {std::string(found.name.text)});
   return error_value();
 }
@@ -304,20 +319,31 @@ Value name(Evaluator& at, const ast::Expr& expr) {
 
 Value evaluate(Evaluator& at, const ast::Expr& expr) {
   switch (expr.kind) {
-    case ExprKind::error: return error_value();
-    case ExprKind::integer: return integer_value(expr.integer);
-    case ExprKind::real: return real_value(expr.real);
-    case ExprKind::dimensions: return dimensions(at, expr);
-    case ExprKind::name: return name(at, expr);
-    case ExprKind::member: return member(at, expr);
-    case ExprKind::index: return at.scope ? size_of(at.checker, *at.scope, find_place(at.checker, *at.scope, expr)) : wrong_operand(at, expr, "a number");
-    case ExprKind::call: return call(at, expr);
-    case ExprKind::list: return list(at, expr);
-    case ExprKind::negate: return negate(at, expr);
+    case ExprKind::error:
+      return error_value();
+    case ExprKind::integer:
+      return integer_value(expr.integer);
+    case ExprKind::real:
+      return real_value(expr.real);
+    case ExprKind::dimensions:
+      return dimensions(at, expr);
+    case ExprKind::name:
+      return name(at, expr);
+    case ExprKind::member:
+      return member(at, expr);
+    case ExprKind::index:
+      return at.scope ? size_of(at.checker, *at.scope, find_place(at.checker, *at.scope, expr)) : wrong_operand(at, expr, "a number");
+    case ExprKind::call:
+      return call(at, expr);
+    case ExprKind::list:
+      return list(at, expr);
+    case ExprKind::negate:
+      return negate(at, expr);
     case ExprKind::add:
     case ExprKind::sub:
     case ExprKind::mul:
-    case ExprKind::div: break;
+    case ExprKind::div:
+      break;
   }
   const Value a = evaluate(at, expr.operands[0]);
   return apply(at, expr, a, evaluate(at, expr.operands[1]));
@@ -412,7 +438,8 @@ Value evaluate_expr(Checker& checker, GraphScope* scope, uint32_t module, const 
   return evaluate(at, expr);
 }
 
-std::optional<int64_t> evaluate_integer(Checker& checker, GraphScope* scope, uint32_t module, const ast::Expr& expr, int64_t least, int64_t greatest) {
+std::optional<int64_t> evaluate_integer(Checker& checker, GraphScope* scope, uint32_t module, const ast::Expr& expr, int64_t least,
+                                        int64_t greatest) {
   const Value value = evaluate_expr(checker, scope, module, expr);
   if (!value.ok()) return std::nullopt;
   if (!value.known_integer()) {
@@ -447,7 +474,8 @@ ExtentId extent_of(Checker& checker, uint32_t symbol) {
   if (begin(checker, symbol)) {
     const auto& node = std::get<ast::ExtentDeclaration>(*checker.symbols[symbol].declaration);
     Extent extent;
-    if (read_extent(checker, checker.symbols[symbol], node, extent)) checker.symbols[symbol].id = checker.program.extents.add(std::move(extent)).value;
+    if (read_extent(checker, checker.symbols[symbol], node, extent))
+      checker.symbols[symbol].id = checker.program.extents.add(std::move(extent)).value;
     checker.symbols[symbol].progress = Symbol::Progress::done;
   }
   const uint32_t id = checker.symbols[symbol].id;

@@ -13,7 +13,8 @@ std::string first_difference(const Table<StructId, Struct>& structs, const Struc
   for (const Field& field : record.fields) {
     if (field.offset140 != field.offset430) return field.name;
     const bool nested = field.type.record.valid() && !layouts_agree(structs, structs[field.type.record]);
-    const uint64_t size140 = layout_of(structs, field.type, BlockLayout::std140).size, size430 = layout_of(structs, field.type, BlockLayout::std430).size;
+    const uint64_t size140 = layout_of(structs, field.type, BlockLayout::std140).size,
+                   size430 = layout_of(structs, field.type, BlockLayout::std430).size;
     if (nested || size140 != size430) return field.name;
   }
   return record.name;

@@ -133,23 +133,26 @@ bool is_operator(TokenKind kind) {
     case TokenKind::less_equal:
     case TokenKind::greater_equal:
     case TokenKind::equal_equal:
-    case TokenKind::not_equal: return true;
-    default: return false;
+    case TokenKind::not_equal:
+      return true;
+    default:
+      return false;
   }
 }
 
 bool spaced_colon(const Formatter& at, const Line& line, size_t index) {
   const std::string_view first = word(at, line.tokens[0]);
   const bool declares = first == "image" || first == "buffer" || first == "pass";
-  return declares && line.context == Context::graph && std::none_of(line.tokens.begin(), line.tokens.begin() + static_cast<long>(index), [](const Token& token) {
-           return token.kind == TokenKind::colon || token.kind == TokenKind::left_brace;
-         });
+  return declares && line.context == Context::graph &&
+         std::none_of(line.tokens.begin(), line.tokens.begin() + static_cast<long>(index),
+                      [](const Token& token) { return token.kind == TokenKind::colon || token.kind == TokenKind::left_brace; });
 }
 
 // Settings and statements that share a line may stand two blanks apart.
 bool separates(const Line& line, size_t index) {
   if (line.context == Context::fields) return true;
-  return std::any_of(line.tokens.begin(), line.tokens.begin() + static_cast<long>(index), [](const Token& token) { return token.kind == TokenKind::left_brace; });
+  return std::any_of(line.tokens.begin(), line.tokens.begin() + static_cast<long>(index),
+                     [](const Token& token) { return token.kind == TokenKind::left_brace; });
 }
 
 size_t gap(const Formatter& at, const Line& line, size_t index) {
@@ -205,8 +208,10 @@ void lay_out(const Formatter& at, Line& line, LineKind kind, bool mixed_run) {
   const size_t width = padded_first_word(line, kind, mixed_run);
   const size_t first = line.tokens.empty() ? 0 : line.tokens[0].end - line.tokens[0].begin;
   for (size_t i = 0; i < line.tokens.size(); ++i) {
-    if (i == 1 && width > 0) line.code.append(std::max(width, first) + 1 - first, ' ');
-    else if (i > 0) line.code.append(gap(at, line, i), ' ');
+    if (i == 1 && width > 0)
+      line.code.append(std::max(width, first) + 1 - first, ' ');
+    else if (i > 0)
+      line.code.append(gap(at, line, i), ' ');
     if (i == align && align > 0) line.align_at = line.code.size();
     line.code += word(at, line.tokens[i]);
   }
@@ -282,7 +287,8 @@ std::string join(const Formatter& at) {
 bool same_tokens(FileId file, std::string_view a, std::string_view b) {
   Diagnostics ignored;
   const Tokens left = lex(file, a, ignored), right = lex(file, b, ignored);
-  return left.size() == right.size() && std::equal(left.begin(), left.end(), right.begin(), [&](const Token& one, const Token& two) { return text_of(one, a) == text_of(two, b); });
+  return left.size() == right.size() &&
+         std::equal(left.begin(), left.end(), right.begin(), [&](const Token& one, const Token& two) { return text_of(one, a) == text_of(two, b); });
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ struct FormatInfo {
   uint32_t vk = 0;           // VkFormat
   uint32_t block_bytes = 0;  // bytes of a block; a texel where blocks are 1x1
   uint32_t block_width = 1, block_height = 1;
-  uint32_t aspects = 0;      // Aspect bits
+  uint32_t aspects = 0;  // Aspect bits
   Numeric numeric = Numeric::floating;
 
   bool is_color() const { return aspects == aspect_color; }

@@ -73,10 +73,12 @@ void load_imports(Loader& loader, Module& module, uint32_t depth) {
       return;
     }
     const auto imported = load_import(loader, node, depth + 1);
-    if (!imported) module.tree.lost_names = true;
+    if (!imported)
+      module.tree.lost_names = true;
     else if (std::find(module.imports.begin(), module.imports.end(), *imported) != module.imports.end())
       loader.diagnostics.report(DiagnosticKind::RepeatedImport, node.span, {std::string(node.path)});
-    else module.imports.push_back(*imported);
+    else
+      module.imports.push_back(*imported);
   }
 }
 
@@ -117,7 +119,8 @@ Diagnostics without_repeats(const Diagnostics& all) {
   Diagnostics kept;
   std::set<std::tuple<DiagnosticKind, uint32_t, uint32_t, uint32_t>> seen;
   for (const Diagnostic& diagnostic : all.rows())
-    if (!diagnostic.span.file.valid() || seen.emplace(diagnostic.kind, diagnostic.span.file.value, diagnostic.span.begin, diagnostic.span.end).second) kept.report(diagnostic);
+    if (!diagnostic.span.file.valid() || seen.emplace(diagnostic.kind, diagnostic.span.file.value, diagnostic.span.begin, diagnostic.span.end).second)
+      kept.report(diagnostic);
   return kept;
 }
 

@@ -122,7 +122,7 @@ TokenKind take_string(Lexer& lexer, uint32_t begin) {
 TokenKind take_invalid(Lexer& lexer, uint32_t begin) {
   const bool foreign = static_cast<unsigned char>(lexer.peek()) >= 0x80;  // a word in another script
   const auto fits = [&](char c) {
-    if (foreign && is_word(c)) return false; 
+    if (foreign && is_word(c)) return false;
     return is_word(c) || is_blank(c) || c == '\n' || c == '"' || c == '\0';
   };
   const auto punctuation = [&] {

@@ -8,11 +8,12 @@ namespace {
 
 using Words = std::initializer_list<std::string_view>;
 
-constexpr std::string_view kDeclarations[] = {"module", "import",  "target",  "const",     "extent", "struct", "interface",
-                                 "sampler", "state", "feature", "condition", "set",    "graph",  "technique"};
+constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "const",     "extent", "struct", "interface",
+                                              "sampler", "state",  "feature", "condition", "set",    "graph",  "technique"};
 constexpr std::string_view kItems[] = {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"};
-constexpr std::string_view kStatements[] = {"read",  "write", "update",  "atomic",     "color",    "depth", "stencil", "resolve", "params", "shader", "state", "dispatch",
-                               "draw",  "bind",  "copy",    "blit",       "clear",    "fill",  "host",    "after",   "keep",   "layout", "fullscreen"};
+constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
+                                            "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
+                                            "clear",  "fill",   "host",   "after",    "keep",  "layout", "fullscreen"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {
@@ -90,7 +91,8 @@ bool Parser::next_begins() const {
   if (!peek().starts_line || !is(TokenKind::identifier)) return false;
   const bool keyword = begins_statement(word()) || begins_item(word()) || begins_declaration(word());
   const Token& next = peek(1);
-  const bool operand = next.kind == TokenKind::identifier || next.kind == TokenKind::string || next.kind == TokenKind::integer || next.kind == TokenKind::left_brace;
+  const bool operand =
+      next.kind == TokenKind::identifier || next.kind == TokenKind::string || next.kind == TokenKind::integer || next.kind == TokenKind::left_brace;
   return keyword && (operand || next.starts_line);
 }
 

@@ -140,12 +140,18 @@ Expr parse_named(Parser& parser, const char* what, bool calls_names) {
 
 Expr parse_primary(Parser& parser, const char* what) {
   switch (parser.peek().kind) {
-    case TokenKind::integer: return parse_integer(parser);
-    case TokenKind::real: return parse_real(parser);
-    case TokenKind::dimensions: return parse_dimensions(parser);
-    case TokenKind::left_paren: return parse_suffixes(parser, parse_list(parser, TokenKind::right_paren), false);
-    case TokenKind::left_bracket: return parse_list(parser, TokenKind::right_bracket);
-    default: return parse_named(parser, what, true);
+    case TokenKind::integer:
+      return parse_integer(parser);
+    case TokenKind::real:
+      return parse_real(parser);
+    case TokenKind::dimensions:
+      return parse_dimensions(parser);
+    case TokenKind::left_paren:
+      return parse_suffixes(parser, parse_list(parser, TokenKind::right_paren), false);
+    case TokenKind::left_bracket:
+      return parse_list(parser, TokenKind::right_bracket);
+    default:
+      return parse_named(parser, what, true);
   }
 }
 

@@ -73,8 +73,8 @@ SamplerDeclaration parse_sampler(Parser& parser) {
   SamplerDeclaration sampler;
   parser.take();
   sampler.name = parser.expect_name("the name of the sampler");
-  sampler.settings =
-      parse_settings(parser, {{"filter", "", 1, 0}, {"mip", "", 1, 0}, {"address", "", 1, 0}, {"compare", "", 1, 0}, {"anisotropy", "", 0, 1}}, "a sampler");
+  sampler.settings = parse_settings(
+      parser, {{"filter", "", 1, 0}, {"mip", "", 1, 0}, {"address", "", 1, 0}, {"compare", "", 1, 0}, {"anisotropy", "", 0, 1}}, "a sampler");
   return sampler;
 }
 
@@ -152,10 +152,14 @@ Parameter parse_parameter(Parser& parser) {
   if (prefixed && parser.is_word("surface")) return parse_surface(parser);
   Parameter parameter;
   if (prefixed) parameter.writable = parser.accept_word("inout");
-  if (prefixed && parser.accept_word("params")) parameter.kind = Parameter::Kind::params;
-  else if (prefixed && parser.accept_word("image")) parameter.kind = Parameter::Kind::image;
-  else if (prefixed && parser.accept_word("buffer")) parameter.kind = Parameter::Kind::buffer;
-  else if (prefixed && parser.accept_word("const")) parameter.kind = Parameter::Kind::constant;
+  if (prefixed && parser.accept_word("params"))
+    parameter.kind = Parameter::Kind::params;
+  else if (prefixed && parser.accept_word("image"))
+    parameter.kind = Parameter::Kind::image;
+  else if (prefixed && parser.accept_word("buffer"))
+    parameter.kind = Parameter::Kind::buffer;
+  else if (prefixed && parser.accept_word("const"))
+    parameter.kind = Parameter::Kind::constant;
   parameter.name = parser.expect_name("a parameter");
   const bool typed = parameter.kind == Parameter::Kind::params || parameter.kind == Parameter::Kind::interface;
   if (typed && parser.expect(TokenKind::colon)) parameter.type = parse_place(parser, "a type");
@@ -282,14 +286,22 @@ void complain_about_item(Parser& parser) {
 
 void parse_item(Parser& parser, std::vector<Item>& items) {
   const std::string_view word = parser.is(TokenKind::identifier) ? parser.word() : std::string_view();
-  if (word == "pass") items.push_back({parse_pass(parser)});
-  else if (word == "image" || word == "buffer") items.push_back({parse_resource(parser)});
-  else if (word == "for") items.push_back({parse_for(parser)});
-  else if (word == "when") items.push_back({parse_when(parser)});
-  else if (word == "if") items.push_back({parse_if(parser)});
-  else if (word == "use") items.push_back({parse_use(parser)});
-  else if (word == "assert" || word == "warn") items.push_back({parse_assertion(parser)});
-  else if (!rejoin_pass(parser, items)) complain_about_item(parser);
+  if (word == "pass")
+    items.push_back({parse_pass(parser)});
+  else if (word == "image" || word == "buffer")
+    items.push_back({parse_resource(parser)});
+  else if (word == "for")
+    items.push_back({parse_for(parser)});
+  else if (word == "when")
+    items.push_back({parse_when(parser)});
+  else if (word == "if")
+    items.push_back({parse_if(parser)});
+  else if (word == "use")
+    items.push_back({parse_use(parser)});
+  else if (word == "assert" || word == "warn")
+    items.push_back({parse_assertion(parser)});
+  else if (!rejoin_pass(parser, items))
+    complain_about_item(parser);
 }
 
 // Items after a `}` too many still belong to the graph before it.
@@ -314,8 +326,8 @@ bool rejoin_graph(Parser& parser, File& file) {
 void complain_about_declaration(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(
-      parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state", "feature", "condition", "set", "graph", "technique"});
+  const std::string guess = closest(parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state",
+                                                    "feature", "condition", "set", "graph", "technique"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -335,20 +347,34 @@ StructDeclaration parse_struct_declaration(Parser& parser) {
 void parse_any_declaration(Parser& parser, File& file) {
   const std::string_view word = parser.is(TokenKind::identifier) ? parser.word() : std::string_view();
   auto& out = file.declarations;
-  if (word == "module") parse_module(parser, file);
-  else if (word == "import") parse_import(parser, file);
-  else if (word == "target") parse_target(parser, file);
-  else if (word == "const") out.push_back(parse_constant(parser));
-  else if (word == "extent") out.push_back(parse_extent(parser));
-  else if (word == "struct") out.push_back(parse_struct_declaration(parser));
-  else if (word == "interface") out.push_back(parse_interface(parser));
-  else if (word == "sampler") out.push_back(parse_sampler(parser));
-  else if (word == "state") out.push_back(parse_state(parser));
-  else if (word == "feature") out.push_back(parse_feature(parser));
-  else if (word == "condition") out.push_back(parse_condition(parser));
-  else if (word == "set") out.push_back(parse_engine_set(parser));
-  else if (word == "graph" || word == "technique") out.push_back(parse_graph(parser, word == "technique"));
-  else if (!rejoin_graph(parser, file)) complain_about_declaration(parser);
+  if (word == "module")
+    parse_module(parser, file);
+  else if (word == "import")
+    parse_import(parser, file);
+  else if (word == "target")
+    parse_target(parser, file);
+  else if (word == "const")
+    out.push_back(parse_constant(parser));
+  else if (word == "extent")
+    out.push_back(parse_extent(parser));
+  else if (word == "struct")
+    out.push_back(parse_struct_declaration(parser));
+  else if (word == "interface")
+    out.push_back(parse_interface(parser));
+  else if (word == "sampler")
+    out.push_back(parse_sampler(parser));
+  else if (word == "state")
+    out.push_back(parse_state(parser));
+  else if (word == "feature")
+    out.push_back(parse_feature(parser));
+  else if (word == "condition")
+    out.push_back(parse_condition(parser));
+  else if (word == "set")
+    out.push_back(parse_engine_set(parser));
+  else if (word == "graph" || word == "technique")
+    out.push_back(parse_graph(parser, word == "technique"));
+  else if (!rejoin_graph(parser, file))
+    complain_about_declaration(parser);
 }
 
 // Half a declaration would only cause more messages; its name counts as lost.

@@ -188,7 +188,9 @@ ast::HostTransfer parse_host_transfer(Parser& parser) {
   parser.take();
   parse_block(parser, Level::pass, [&] {
     if (parser.is_word("read") || parser.is_word("write") || parser.is_word("update"))
-      host.accesses.push_back(parse_access(parser, parser.is_word("read") ? ast::Verb::read : parser.is_word("write") ? ast::Verb::write : ast::Verb::update));
+      host.accesses.push_back(parse_access(parser, parser.is_word("read")    ? ast::Verb::read
+                                                   : parser.is_word("write") ? ast::Verb::write
+                                                                             : ast::Verb::update));
     else
       parser.unexpected("`read`, `write` or `update`");
   });
@@ -220,8 +222,9 @@ struct VerbWord {
   std::string_view word;
   ast::Verb verb;
 };
-constexpr VerbWord kVerbs[] = {{"read", ast::Verb::read},   {"write", ast::Verb::write}, {"update", ast::Verb::update},  {"atomic", ast::Verb::atomic},
-                               {"color", ast::Verb::color}, {"depth", ast::Verb::depth}, {"stencil", ast::Verb::stencil}};
+constexpr VerbWord kVerbs[] = {{"read", ast::Verb::read},      {"write", ast::Verb::write}, {"update", ast::Verb::update},
+                               {"atomic", ast::Verb::atomic},  {"color", ast::Verb::color}, {"depth", ast::Verb::depth},
+                               {"stencil", ast::Verb::stencil}};
 
 // `update RES` alone is the transfer of host bytes; with `as` it is an access.
 bool is_transfer_update(const Parser& parser, const PassDeclaration& pass) {
@@ -244,8 +247,9 @@ ast::Statement parse_other(Parser& parser) {
 
 void complain_about_statement(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
-  static const std::vector<std::string_view> kWords = {"read",  "write",    "update", "atomic", "color",   "depth",  "stencil", "resolve", "params", "shader", "fullscreen", "state",
-                                                       "dispatch", "draw", "bind",  "copy",   "blit",   "clear",   "fill",   "host",    "after",   "keep"};
+  static const std::vector<std::string_view> kWords = {"read",   "write",  "update",     "atomic", "color",    "depth", "stencil", "resolve",
+                                                       "params", "shader", "fullscreen", "state",  "dispatch", "draw",  "bind",    "copy",
+                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), kWords);
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);

@@ -5,8 +5,8 @@ namespace rg::dsl {
 namespace {
 
 constexpr SettingShape kResourceSettings[] = {
-    {"mips", "", 0, 1}, {"layers", "", 0, 1},  {"samples", "", 0, 1}, {"history", "", 0, 1}, {"cube", "", 0, 0},     {"1d", "", 0, 0},
-    {"2d", "", 0, 0},   {"3d", "", 0, 0},      {"persistent", "", 0, 0}, {"readback", "", 0, 0}, {"output", "", 0, 0}, {"no", "alias", 0, 0},
+    {"mips", "", 0, 1}, {"layers", "", 0, 1}, {"samples", "", 0, 1},    {"history", "", 0, 1},  {"cube", "", 0, 0},   {"1d", "", 0, 0},
+    {"2d", "", 0, 0},   {"3d", "", 0, 0},     {"persistent", "", 0, 0}, {"readback", "", 0, 0}, {"output", "", 0, 0}, {"no", "alias", 0, 0},
 };
 
 void parse_init(Parser& parser, ast::ResourceDeclaration& resource) {

@@ -93,11 +93,11 @@ struct SettingShape {  // of one setting: its word, the second word where it has
 std::vector<ast::Setting> parse_settings(Parser& parser, std::initializer_list<SettingShape> shapes, const char* what);
 ast::Setting parse_setting(Parser& parser, const SettingShape& shape);
 ast::Usage parse_usage(Parser& parser);
-ast::StructDeclaration parse_struct(Parser& parser);       // after `struct`
-ast::ResourceDeclaration parse_resource(Parser& parser);   // after `image` or `buffer` of a graph
-ast::ResourceDeclaration parse_member(Parser& parser);     // of an interface
+ast::StructDeclaration parse_struct(Parser& parser);      // after `struct`
+ast::ResourceDeclaration parse_resource(Parser& parser);  // after `image` or `buffer` of a graph
+ast::ResourceDeclaration parse_member(Parser& parser);    // of an interface
 ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclaration image);
-ast::PassDeclaration parse_pass(Parser& parser);           // after `pass`
+ast::PassDeclaration parse_pass(Parser& parser);  // after `pass`
 void parse_pass_body(Parser& parser, ast::PassDeclaration& pass);
 ast::GraphDeclaration parse_graph(Parser& parser, bool is_technique);
 void parse_items(Parser& parser, std::vector<ast::Item>& items);

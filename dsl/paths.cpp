@@ -12,9 +12,12 @@ bool take_parts(std::string_view path, std::vector<std::string_view>& parts) {
     const std::string_view part = path.substr(0, slash);
     path.remove_prefix(slash == std::string_view::npos ? path.size() : slash + 1);
     if (part.empty() || part == ".") continue;
-    if (part != "..") parts.push_back(part);
-    else if (parts.empty()) return false;
-    else parts.pop_back();
+    if (part != "..")
+      parts.push_back(part);
+    else if (parts.empty())
+      return false;
+    else
+      parts.pop_back();
   }
   return true;
 }

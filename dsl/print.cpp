@@ -9,9 +9,9 @@
 namespace rg::dsl {
 namespace {
 
-constexpr const char* kRoles[] = {"sampled", "storage", "uniform", "vertex", "index", "indirect", "color", "depth", "depth_readonly", "stencil", "input",
-                                  "resolve_src", "resolve_dst", "copy_src", "copy_dst", "blit_src", "blit_dst", "clear_dst", "fill_dst", "update_dst", "host_read",
-                                  "host_write", "present", "undefined"};
+constexpr const char* kRoles[] = {"sampled",        "storage",   "uniform",  "vertex",      "index",       "indirect",   "color",    "depth",
+                                  "depth_readonly", "stencil",   "input",    "resolve_src", "resolve_dst", "copy_src",   "copy_dst", "blit_src",
+                                  "blit_dst",       "clear_dst", "fill_dst", "update_dst",  "host_read",   "host_write", "present",  "undefined"};
 constexpr const char* kModes[] = {"read", "write", "update", "atomic"};
 constexpr const char* kLifetimes[] = {"transient", "history", "persistent", "imported", "readback"};
 constexpr const char* kDimensions[] = {"1d", "2d", "3d", "cube"};
@@ -26,10 +26,16 @@ constexpr const char* kAddresses[] = {"repeat", "mirror", "clamp", "border"};
 constexpr const char* kCulls[] = {"none", "front", "back"};
 constexpr const char* kTopologies[] = {"points", "lines", "triangles", "triangle_strip"};
 constexpr const char* kBlendOps[] = {"add", "subtract", "reverse_subtract", "min", "max"};
-constexpr const char* kFactors[] = {"zero", "one", "src_alpha", "one_minus_src_alpha", "dst_alpha", "one_minus_dst_alpha", "src_color", "one_minus_src_color", "dst_color", "one_minus_dst_color"};
+constexpr const char* kFactors[] = {"zero",      "one",
+                                    "src_alpha", "one_minus_src_alpha",
+                                    "dst_alpha", "one_minus_dst_alpha",
+                                    "src_color", "one_minus_src_color",
+                                    "dst_color", "one_minus_dst_color"};
 
 template <class Enum, size_t Count>
-const char* word(const char* const (&words)[Count], Enum value) { return words[static_cast<size_t>(value)]; }
+const char* word(const char* const (&words)[Count], Enum value) {
+  return words[static_cast<size_t>(value)];
+}
 
 std::string stages_text(uint32_t stages) {
   constexpr const char* kNames[] = {"vertex", "tess_control", "tess_eval", "geometry", "fragment", "compute", "transfer", "host"};
@@ -65,30 +71,33 @@ struct Printer {
 };
 
 void print_extent(Printer& at, const Extent& extent) {
-  at.line("extent {} axes {} initial {}x{}x{} max {}x{}x{}", extent.name, extent.axes, extent.initial[0], extent.initial[1], extent.initial[2], extent.maximum[0],
-          extent.maximum[1], extent.maximum[2]);
+  at.line("extent {} axes {} initial {}x{}x{} max {}x{}x{}", extent.name, extent.axes, extent.initial[0], extent.initial[1], extent.initial[2],
+          extent.maximum[0], extent.maximum[1], extent.maximum[2]);
 }
 
 void print_struct(Printer& at, const Struct& record) {
   at.line("struct {} std140 {}/{} std430 {}/{}", record.name, record.size140, record.align140, record.size430, record.align430);
-  for (const Field& field : record.fields) at.line("  {}: {} @{} @{}", field.name, print_type(at.program, field.type), field.offset140, field.offset430);
+  for (const Field& field : record.fields)
+    at.line("  {}: {} @{} @{}", field.name, print_type(at.program, field.type), field.offset140, field.offset430);
 }
 
 void print_sampler(Printer& at, const Sampler& sampler) {
-  at.line("sampler {} filter {} mip {} address {}{}{}", sampler.name, word(kFilters, sampler.filter), word(kFilters, sampler.mip_filter), word(kAddresses, sampler.address),
-          sampler.compare ? fmt::format(" compare {}", word(kCompares, *sampler.compare)) : "",
+  at.line("sampler {} filter {} mip {} address {}{}{}", sampler.name, word(kFilters, sampler.filter), word(kFilters, sampler.mip_filter),
+          word(kAddresses, sampler.address), sampler.compare ? fmt::format(" compare {}", word(kCompares, *sampler.compare)) : "",
           sampler.max_anisotropy > 0 ? fmt::format(" anisotropy {}", sampler.max_anisotropy) : "");
 }
 
 void print_state(Printer& at, const State& state) {
-  at.line("state {} cull {} front {} depth test {} write {} bias {} {} topology {}{}", state.name, word(kCulls, state.cull), state.front_clockwise ? "clockwise" : "counter_clockwise",
-          state.depth_test ? word(kCompares, state.depth_compare) : "off", state.depth_write ? "on" : "off", state.depth_bias_constant, state.depth_bias_slope,
-          word(kTopologies, state.topology), state.alpha_to_coverage ? " alpha_to_coverage" : "");
+  at.line("state {} cull {} front {} depth test {} write {} bias {} {} topology {}{}", state.name, word(kCulls, state.cull),
+          state.front_clockwise ? "clockwise" : "counter_clockwise", state.depth_test ? word(kCompares, state.depth_compare) : "off",
+          state.depth_write ? "on" : "off", state.depth_bias_constant, state.depth_bias_slope, word(kTopologies, state.topology),
+          state.alpha_to_coverage ? " alpha_to_coverage" : "");
 }
 
 std::string shape_text(const Program& program, const Resource& resource) {
   if (resource.kind == ResourceKind::buffer)
-    return fmt::format("{}[{}] stride {}", print_type(program, resource.element), resource.count.valid() ? print_expr(program, resource.count) : "", resource.stride);
+    return fmt::format("{}[{}] stride {}", print_type(program, resource.element), resource.count.valid() ? print_expr(program, resource.count) : "",
+                       resource.stride);
   std::string text = fmt::format("{} {} [{}", name(resource.format), word(kDimensions, resource.dimension), print_expr(program, resource.width));
   if (resource.height.valid()) text += ", " + print_expr(program, resource.height);
   if (resource.depth.valid()) text += ", " + print_expr(program, resource.depth);
@@ -100,12 +109,13 @@ std::string shape_text(const Program& program, const Resource& resource) {
 }
 
 std::string boundary_text(const char* title, const BoundaryState& state) {
-  return fmt::format(" {} {}{}{}", title, word(kRoles, state.role), state.stages ? " in " + stages_text(state.stages) : "", state.wrote ? " written" : "");
+  return fmt::format(" {} {}{}{}", title, word(kRoles, state.role), state.stages ? " in " + stages_text(state.stages) : "",
+                     state.wrote ? " written" : "");
 }
 
 void print_resource(Printer& at, size_t id, const Resource& resource) {
-  std::string text = fmt::format("  r{} {} {}: {} {}", id, resource.kind == ResourceKind::image ? "image" : "buffer", resource.name, shape_text(at.program, resource),
-                                 word(kLifetimes, resource.lifetime));
+  std::string text = fmt::format("  r{} {} {}: {} {}", id, resource.kind == ResourceKind::image ? "image" : "buffer", resource.name,
+                                 shape_text(at.program, resource), word(kLifetimes, resource.lifetime));
   if (resource.history > 0) text += fmt::format(" {}", resource.history);
   if (resource.init == InitKind::clear) text += " init " + clear_text(resource.init_value);
   if (resource.lifetime == Lifetime::imported) text += boundary_text("before", resource.before) + boundary_text("after", resource.after);
@@ -115,25 +125,31 @@ void print_resource(Printer& at, size_t id, const Resource& resource) {
   at.line("{}{} ({})", text, guard_text(at.program, resource.guard), resource.module);
 }
 
-std::string span_text(uint32_t first, uint32_t count) { return count == kAll ? fmt::format("{}..", first) : fmt::format("{}..{}", first, uint64_t{first} + count); }
+std::string span_text(uint32_t first, uint32_t count) {
+  return count == kAll ? fmt::format("{}..", first) : fmt::format("{}..{}", first, uint64_t{first} + count);
+}
 
 std::string range_text(const Program& program, const Resource& resource, const Range& range) {
   std::string text;
-  if (resource.kind == ResourceKind::buffer) return range.offset.valid() ? fmt::format(" bytes {} + {}", print_expr(program, range.offset), print_expr(program, range.size)) : "";
+  if (resource.kind == ResourceKind::buffer)
+    return range.offset.valid() ? fmt::format(" bytes {} + {}", print_expr(program, range.offset), print_expr(program, range.size)) : "";
   if (range.mip != 0 || range.mips != kAll) text += " mips " + span_text(range.mip, range.mips);
   if (range.layer != 0 || range.layers != kAll) text += " layers " + span_text(range.layer, range.layers);
   const uint32_t all = info(resource.format).aspects;
-  if (range.aspects != all) text += range.aspects == aspect_depth ? " depth" : range.aspects == aspect_stencil ? " stencil" : fmt::format(" aspects {}", range.aspects);
+  if (range.aspects != all)
+    text += range.aspects == aspect_depth ? " depth" : range.aspects == aspect_stencil ? " stencil" : fmt::format(" aspects {}", range.aspects);
   return text;
 }
 
 std::string blend_text(const Blend& blend) {
-  return fmt::format(" blend {}({}, {}, {}, {})", word(kBlendOps, blend.op), word(kFactors, blend.src), word(kFactors, blend.dst), word(kFactors, blend.src_alpha), word(kFactors, blend.dst_alpha));
+  return fmt::format(" blend {}({}, {}, {}, {})", word(kBlendOps, blend.op), word(kFactors, blend.src), word(kFactors, blend.dst),
+                     word(kFactors, blend.src_alpha), word(kFactors, blend.dst_alpha));
 }
 
 void print_access(Printer& at, const Graph& graph, size_t index, const Access& access) {
   const Resource& resource = graph.resources[access.resource];
-  std::string text = fmt::format("    a{} {} {}{}", index, word(kModes, access.mode), resource.name, access.age ? fmt::format(".prev({})", access.age) : "");
+  std::string text =
+      fmt::format("    a{} {} {}{}", index, word(kModes, access.mode), resource.name, access.age ? fmt::format(".prev({})", access.age) : "");
   text += range_text(at.program, resource, access.range);
   text += fmt::format(" as {}", word(kRoles, access.role));
   if (access.sampler.valid()) text += fmt::format("({})", at.program.samplers[access.sampler].name);
@@ -149,8 +165,10 @@ std::string index_text(uint32_t index) { return index == kAll ? "-" : fmt::forma
 
 void print_draw(Printer& at, const Draw& draw) {
   std::string text = fmt::format("    draw {}", word(kDraws, draw.kind));
-  if (draw.kind == DrawKind::direct) text += fmt::format(" {} instances {}", print_expr(at.program, draw.vertices), print_expr(at.program, draw.instances));
-  if (draw.arguments != kAll) text += fmt::format(" {} max {} stride {}{}", index_text(draw.arguments), draw.max_draws, draw.stride, draw.indexed ? " indexed" : "");
+  if (draw.kind == DrawKind::direct)
+    text += fmt::format(" {} instances {}", print_expr(at.program, draw.vertices), print_expr(at.program, draw.instances));
+  if (draw.arguments != kAll)
+    text += fmt::format(" {} max {} stride {}{}", index_text(draw.arguments), draw.max_draws, draw.stride, draw.indexed ? " indexed" : "");
   if (draw.counts != kAll) text += " count " + index_text(draw.counts);
   if (draw.per_draw.valid()) text += " per_draw " + at.program.structs[draw.per_draw].name;
   for (const StructId vertex : draw.vertex) text += " vertex " + at.program.structs[vertex].name;
@@ -159,7 +177,9 @@ void print_draw(Printer& at, const Draw& draw) {
 
 void print_dispatch(Printer& at, const Dispatch& dispatch) {
   std::string text = fmt::format("    dispatch {}", word(kDispatches, dispatch.kind));
-  if (dispatch.size[0].valid()) text += fmt::format(" [{}, {}, {}]", print_expr(at.program, dispatch.size[0]), print_expr(at.program, dispatch.size[1]), print_expr(at.program, dispatch.size[2]));
+  if (dispatch.size[0].valid())
+    text += fmt::format(" [{}, {}, {}]", print_expr(at.program, dispatch.size[0]), print_expr(at.program, dispatch.size[1]),
+                        print_expr(at.program, dispatch.size[2]));
   if (dispatch.arguments != kAll) text += " " + index_text(dispatch.arguments);
   at.line("{} group {} {} {}", text, dispatch.group[0], dispatch.group[1], dispatch.group[2]);
 }
@@ -196,11 +216,13 @@ void print_pass(Printer& at, const Graph& graph, size_t id, const Pass& pass) {
 void print_graph(Printer& at, const Graph& graph) {
   at.line("graph {}", graph.name);
   for (const Params& params : graph.params)
-    at.line("  params {}: {}{}", params.name, at.program.structs[params.type].name, params.pass.valid() ? " of " + graph.passes[params.pass].name : "");
+    at.line("  params {}: {}{}", params.name, at.program.structs[params.type].name,
+            params.pass.valid() ? " of " + graph.passes[params.pass].name : "");
   for (size_t i = 0; i < graph.resources.size(); ++i) print_resource(at, i, graph.resources.rows[i]);
   for (size_t i = 0; i < graph.passes.size(); ++i) print_pass(at, graph, i, graph.passes.rows[i]);
   for (const Assertion& assertion : graph.assertions)
-    at.line("  {} {} {} {}", assertion.is_error ? "assert" : "warn", assertion.fact, assertion.comparison, assertion.comparison.empty() ? "" : fmt::format("{}", assertion.value));
+    at.line("  {} {} {} {}", assertion.is_error ? "assert" : "warn", assertion.fact, assertion.comparison,
+            assertion.comparison.empty() ? "" : fmt::format("{}", assertion.value));
 }
 
 }  // namespace
@@ -210,16 +232,26 @@ std::string print_expr(const Program& program, ExprId id) {
   constexpr const char* kAxes[] = {"x", "y", "z"};
   const auto operand = [&](ExprId each) { return print_expr(program, each); };
   switch (expr.op) {
-    case ExprOp::constant: return std::to_string(expr.value);
-    case ExprOp::extent: return program.extents.rows[static_cast<size_t>(expr.value / 3)].name + "." + kAxes[expr.value % 3];
-    case ExprOp::add: return fmt::format("({} + {})", operand(expr.a), operand(expr.b));
-    case ExprOp::sub: return fmt::format("({} - {})", operand(expr.a), operand(expr.b));
-    case ExprOp::mul: return fmt::format("({} * {})", operand(expr.a), operand(expr.b));
-    case ExprOp::floor_div: return fmt::format("floor({} / {})", operand(expr.a), operand(expr.b));
-    case ExprOp::ceil_div: return fmt::format("ceil({} / {})", operand(expr.a), operand(expr.b));
-    case ExprOp::min: return fmt::format("min({}, {})", operand(expr.a), operand(expr.b));
-    case ExprOp::max: return fmt::format("max({}, {})", operand(expr.a), operand(expr.b));
-    case ExprOp::mip: return fmt::format("mip({}, {})", operand(expr.a), operand(expr.b));
+    case ExprOp::constant:
+      return std::to_string(expr.value);
+    case ExprOp::extent:
+      return program.extents.rows[static_cast<size_t>(expr.value / 3)].name + "." + kAxes[expr.value % 3];
+    case ExprOp::add:
+      return fmt::format("({} + {})", operand(expr.a), operand(expr.b));
+    case ExprOp::sub:
+      return fmt::format("({} - {})", operand(expr.a), operand(expr.b));
+    case ExprOp::mul:
+      return fmt::format("({} * {})", operand(expr.a), operand(expr.b));
+    case ExprOp::floor_div:
+      return fmt::format("floor({} / {})", operand(expr.a), operand(expr.b));
+    case ExprOp::ceil_div:
+      return fmt::format("ceil({} / {})", operand(expr.a), operand(expr.b));
+    case ExprOp::min:
+      return fmt::format("min({}, {})", operand(expr.a), operand(expr.b));
+    case ExprOp::max:
+      return fmt::format("max({}, {})", operand(expr.a), operand(expr.b));
+    case ExprOp::mip:
+      return fmt::format("mip({}, {})", operand(expr.a), operand(expr.b));
   }
   return {};
 }
@@ -228,10 +260,14 @@ std::string print_type(const Program& program, const Type& type) {
   constexpr const char* kScalars[] = {"f32", "i32", "u32", "bool"};
   constexpr const char* kPrefixes[] = {"", "i", "u", "b"};
   std::string text;
-  if (type.record.valid()) text = program.structs[type.record].name;
-  else if (type.columns > 1) text = type.rows == type.columns ? fmt::format("mat{}", type.rows) : fmt::format("mat{}x{}", type.columns, type.rows);
-  else if (type.rows > 1) text = fmt::format("{}vec{}", word(kPrefixes, type.scalar), type.rows);
-  else text = word(kScalars, type.scalar);
+  if (type.record.valid())
+    text = program.structs[type.record].name;
+  else if (type.columns > 1)
+    text = type.rows == type.columns ? fmt::format("mat{}", type.rows) : fmt::format("mat{}x{}", type.columns, type.rows);
+  else if (type.rows > 1)
+    text = fmt::format("{}vec{}", word(kPrefixes, type.scalar), type.rows);
+  else
+    text = word(kScalars, type.scalar);
   return type.count ? fmt::format("{}[{}]", text, type.count) : text;
 }
 

@@ -34,16 +34,25 @@ int64_t multiply(int64_t a, int64_t b) {
 
 int64_t apply(const Expr& expr, int64_t a, int64_t b) {
   switch (expr.op) {
-    case ExprOp::add: return add(a, b);
-    case ExprOp::sub: return subtract(a, b);
-    case ExprOp::mul: return multiply(a, b);
-    case ExprOp::floor_div: return b == 0 ? 0 : floor_div(a, b);
-    case ExprOp::ceil_div: return b == 0 ? 0 : floor_div(a, b) + (a % b != 0 ? 1 : 0);
-    case ExprOp::min: return std::min(a, b);
-    case ExprOp::max: return std::max(a, b);
-    case ExprOp::mip: return std::max<int64_t>(b >= 63 ? 0 : a >> b, 1);
+    case ExprOp::add:
+      return add(a, b);
+    case ExprOp::sub:
+      return subtract(a, b);
+    case ExprOp::mul:
+      return multiply(a, b);
+    case ExprOp::floor_div:
+      return b == 0 ? 0 : floor_div(a, b);
+    case ExprOp::ceil_div:
+      return b == 0 ? 0 : floor_div(a, b) + (a % b != 0 ? 1 : 0);
+    case ExprOp::min:
+      return std::min(a, b);
+    case ExprOp::max:
+      return std::max(a, b);
+    case ExprOp::mip:
+      return std::max<int64_t>(b >= 63 ? 0 : a >> b, 1);
     case ExprOp::constant:
-    case ExprOp::extent: break;
+    case ExprOp::extent:
+      break;
   }
   RG_CHECK(false, "an expression without operands is a constant or an extent");
   return 0;
@@ -87,9 +96,12 @@ int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& 
   };
   for (size_t i = 0; i < nodes.size(); ++i) {
     const Expr& expr = program.exprs.rows[nodes[i]];
-    if (expr.op == ExprOp::constant) values[i] = expr.value;
-    else if (expr.op == ExprOp::extent) values[i] = extent_values.at(static_cast<size_t>(expr.value));
-    else values[i] = apply(expr, value_of(expr.a), value_of(expr.b));
+    if (expr.op == ExprOp::constant)
+      values[i] = expr.value;
+    else if (expr.op == ExprOp::extent)
+      values[i] = extent_values.at(static_cast<size_t>(expr.value));
+    else
+      values[i] = apply(expr, value_of(expr.a), value_of(expr.b));
   }
   return values.back();
 }

@@ -96,7 +96,9 @@ struct Sampler {
   friend bool operator==(const Sampler&, const Sampler&) = default;
 };
 
-enum class BlendFactor : uint8_t { zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color, one_minus_dst_color };
+enum class BlendFactor : uint8_t {
+  zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
+};
 enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };
 struct Blend {  // of one colour attachment; disabled unless declared on it
   bool enabled = false;

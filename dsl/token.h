@@ -24,8 +24,8 @@ struct Token {
 };
 using Tokens = std::vector<Token>;  // ends with one end_of_file
 
-const char* name(TokenKind kind);         // "dot_dot"
-const char* describe(TokenKind kind);     // "`..`", "a name": for messages
+const char* name(TokenKind kind);      // "dot_dot"
+const char* describe(TokenKind kind);  // "`..`", "a name": for messages
 
 inline std::string_view text_of(const Token& token, std::string_view source) { return source.substr(token.begin, token.end - token.begin); }
 

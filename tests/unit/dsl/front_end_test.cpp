@@ -18,7 +18,9 @@ namespace {
 
 golden::Loaded load_text(const std::string& text) { return golden::load("test.rg", {{"test.rg", text}}); }
 
-std::string in_graph(const std::string& items) { return "extent view = runtime(100, 50) max(200, 99)\ngraph g(surface s: rgba8 4x4) {\n" + items + "\n}\n"; }
+std::string in_graph(const std::string& items) {
+  return "extent view = runtime(100, 50) max(200, 99)\ngraph g(surface s: rgba8 4x4) {\n" + items + "\n}\n";
+}
 
 std::string messages(const golden::Loaded& loaded) { return print(loaded.diagnostics, loaded.result.files, false); }
 
@@ -61,8 +63,10 @@ TEST(FrontEnd, LineEndingsAndByteOrderMarkDoNotMatter) {
 }
 
 TEST(FrontEnd, DiamondImportsAreReadOnce) {
-  const golden::Loaded loaded = golden::load(
-      "a.rg", {{"a.rg", "import \"b.rg\"\nimport \"c.rg\"\nconst A = D + d.D\n"}, {"b.rg", "import \"d.rg\"\n"}, {"c.rg", "import \"d.rg\"\n"}, {"d.rg", "const D = 4\n"}});
+  const golden::Loaded loaded = golden::load("a.rg", {{"a.rg", "import \"b.rg\"\nimport \"c.rg\"\nconst A = D + d.D\n"},
+                                                      {"b.rg", "import \"d.rg\"\n"},
+                                                      {"c.rg", "import \"d.rg\"\n"},
+                                                      {"d.rg", "const D = 4\n"}});
   EXPECT_EQ(messages(loaded), "");
   EXPECT_EQ(loaded.result.files.size(), 4u);
   ASSERT_EQ(loaded.result.program.constants.size(), 2u);
@@ -71,8 +75,11 @@ TEST(FrontEnd, DiamondImportsAreReadOnce) {
 }
 
 TEST(FrontEnd, ShaderPathsAreOfTheModuleThatNamesThem) {
-  const std::string technique = "technique t(inout image target) {\n pass p : compute { shader \"./x/../go.comp\" group 8 8 1  write target as storage  dispatch over target }\n}\n";
-  const golden::Loaded loaded = golden::load("root/a.rg", {{"root/a.rg", "import \"sub/b.rg\"\n" + in_graph("use t(s)")}, {"root/sub/b.rg", technique}});
+  const std::string technique =
+      "technique t(inout image target) {\n pass p : compute { shader \"./x/../go.comp\" group 8 8 1  write target as storage  dispatch over target "
+      "}\n}\n";
+  const golden::Loaded loaded =
+      golden::load("root/a.rg", {{"root/a.rg", "import \"sub/b.rg\"\n" + in_graph("use t(s)")}, {"root/sub/b.rg", technique}});
   EXPECT_EQ(messages(loaded), "");
   EXPECT_EQ(loaded.result.program.graphs[GraphId{size_t{0}}].passes.rows[0].shaders[0].path, "sub/go.comp");
 }
@@ -90,7 +97,8 @@ TEST(Paths, StayInside) {
 // ---- values -----------------------------------------------------------------------------------------------------
 
 int64_t count_of(const std::string& expression, const std::vector<int64_t>& extents) {
-  const golden::Loaded loaded = load_text(in_graph("buffer b : u32[" + expression + "] output\npass p : compute { write b as storage  write s as storage }"));
+  const golden::Loaded loaded =
+      load_text(in_graph("buffer b : u32[" + expression + "] output\npass p : compute { write b as storage  write s as storage }"));
   EXPECT_EQ(messages(loaded), "") << expression;
   if (loaded.diagnostics.has_errors()) return -1;
   const Program& program = loaded.result.program;
@@ -111,8 +119,10 @@ TEST(Values, EvaluateAtTheExtentsGiven) {
 
 TEST(Values, SharedSubexpressionsAreEvaluatedOnce) {
   std::string text = "extent view = runtime(1)\nconst A0 = view + 1\n";
-  for (int i = 1; i < 40; ++i) text += "const A" + std::to_string(i) + " = min(A" + std::to_string(i - 1) + " + A" + std::to_string(i - 1) + ", 1000)\n";
-  const golden::Loaded loaded = load_text(text + "graph g(surface s: rgba8 4x4) { buffer b : u32[A39] output  pass p : compute { write b as storage  write s as storage } }");
+  for (int i = 1; i < 40; ++i)
+    text += "const A" + std::to_string(i) + " = min(A" + std::to_string(i - 1) + " + A" + std::to_string(i - 1) + ", 1000)\n";
+  const golden::Loaded loaded =
+      load_text(text + "graph g(surface s: rgba8 4x4) { buffer b : u32[A39] output  pass p : compute { write b as storage  write s as storage } }");
   EXPECT_EQ(messages(loaded), "");
   EXPECT_EQ(evaluate(loaded.result.program, loaded.result.program.graphs[GraphId{size_t{0}}].resources.rows[1].count, {1, 1, 1}), 1000);
 }
@@ -149,7 +159,8 @@ TEST(Loops, UnrollOverDeclaredMips) {
 }
 
 Mode mode_of(const std::string& pass, size_t access) {
-  const golden::Loaded loaded = load_text(in_graph("image a : rgba8 4x4\nbuffer args : u32[4]\npass zero : transfer { clear a 0  clear s 0  fill args 1 }\n" + pass));
+  const golden::Loaded loaded =
+      load_text(in_graph("image a : rgba8 4x4\nbuffer args : u32[4]\npass zero : transfer { clear a 0  clear s 0  fill args 1 }\n" + pass));
   EXPECT_EQ(messages(loaded), "") << pass;
   const auto& passes = loaded.result.program.graphs[GraphId{size_t{0}}].passes;
   return passes.rows.back().accesses.at(access).mode;

@@ -9,7 +9,7 @@
 
 namespace rg::dsl::golden {
 
-std::string root();                                           // tests/golden
+std::string root();                                          // tests/golden
 std::vector<std::string> inputs(const std::string& folder);  // paths of *.rg below tests/golden/<folder>, sorted
 std::string read_text(const std::string& path);
 void write_text(const std::string& path, const std::string& text);

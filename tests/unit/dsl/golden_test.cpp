@@ -1,4 +1,6 @@
 // One file:  test_dsl --gtest_filter='*fail_read_before_write*'      Update:  RGC_UPDATE=1 test_dsl --gtest_filter=...
+#include "golden.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "dsl/lexer.h"
 #include "dsl/parser.h"
 #include "dsl/print.h"
-#include "golden.h"
 
 namespace rg::dsl {
 namespace {
@@ -88,7 +89,8 @@ void update_annotations(const std::string& path) {
 
 std::string listed(const std::vector<golden::Expectation>& all) {
   std::string text;
-  for (const golden::Expectation& each : all) text += std::filesystem::path(each.file).filename().string() + ":" + std::to_string(each.line) + ": " + each.text + "\n";
+  for (const golden::Expectation& each : all)
+    text += std::filesystem::path(each.file).filename().string() + ":" + std::to_string(each.line) + ": " + each.text + "\n";
   return text;
 }
 
@@ -149,7 +151,8 @@ TEST(Registry, MessagesKeepHouseStyle) {
     EXPECT_NE(message.back(), '.') << message;
     EXPECT_EQ(message.find("  "), std::string_view::npos) << message;
     EXPECT_EQ(std::count(message.begin(), message.end(), '`') % 2, 0) << message;
-    EXPECT_EQ(message.find('\''), message.find("'s ") == std::string_view::npos ? std::string_view::npos : message.find("'s ")) << "names stand in backticks: " << message;
+    EXPECT_EQ(message.find('\''), message.find("'s ") == std::string_view::npos ? std::string_view::npos : message.find("'s "))
+        << "names stand in backticks: " << message;
   }
 }
 

@@ -19,10 +19,18 @@ void mutate_bytes(std::string& text, Random& random) {
   const size_t at = random.below(text.size());
   const size_t length = std::min(text.size() - at, 1 + random.below(8));
   switch (random.below(4)) {
-    case 0: text.erase(at, length); break;
-    case 1: text.insert(at, text.substr(at, length)); break;
-    case 2: text[at] = kBytes[random.below(sizeof kBytes - 1)]; break;
-    default: text.insert(at, 1, kBytes[random.below(sizeof kBytes - 1)]); break;
+    case 0:
+      text.erase(at, length);
+      break;
+    case 1:
+      text.insert(at, text.substr(at, length));
+      break;
+    case 2:
+      text[at] = kBytes[random.below(sizeof kBytes - 1)];
+      break;
+    default:
+      text.insert(at, 1, kBytes[random.below(sizeof kBytes - 1)]);
+      break;
   }
 }
 
@@ -52,8 +60,10 @@ TokenMutation mutate_token(const std::string& text, Random& random) {
 std::string mutate(const std::string& text, Random& random) {
   std::string result = text;
   for (uint64_t left = 1 + random.below(4); left > 0; --left) {
-    if (random.below(2) == 0) result = mutate_token(result, random).text;
-    else mutate_bytes(result, random);
+    if (random.below(2) == 0)
+      result = mutate_token(result, random).text;
+    else
+      mutate_bytes(result, random);
   }
   return result;
 }

@@ -18,8 +18,8 @@ std::string mutate(const std::string& text, Random& random);
 
 struct TokenMutation {
   std::string text;
-  uint32_t line = 0;      // of the damaged token
-  std::string what;       // for a person
+  uint32_t line = 0;  // of the damaged token
+  std::string what;   // for a person
 };
 // Deletes one token, repeats it, or replaces it by another of the file.
 TokenMutation mutate_token(const std::string& text, Random& random);

@@ -58,10 +58,13 @@ std::optional<Sample> sample(const std::string& text, uint64_t seed) {
   Sample result;
   for (const Diagnostic& diagnostic : loaded.diagnostics.rows()) {
     if (row(diagnostic.kind).severity != Severity::error) continue;
-    const uint32_t line = diagnostic.span.file.valid() && diagnostic.span.file.value == 0 ? loaded.result.files[diagnostic.span.file].position(diagnostic.span.begin).line : 0;
+    const uint32_t line = diagnostic.span.file.valid() && diagnostic.span.file.value == 0
+                              ? loaded.result.files[diagnostic.span.file].position(diagnostic.span.begin).line
+                              : 0;
     if (result.messages++ == 0) result.on_line = line == mutation.line;
   }
-  result.shown = "seed " + std::to_string(seed) + " line " + std::to_string(mutation.line) + ": " + mutation.what + "\n" + print(loaded.diagnostics, loaded.result.files, false);
+  result.shown = "seed " + std::to_string(seed) + " line " + std::to_string(mutation.line) + ": " + mutation.what + "\n" +
+                 print(loaded.diagnostics, loaded.result.files, false);
   return result;
 }
 
@@ -75,14 +78,15 @@ TEST(Mutation, OneMistakeGivesOneMessageOnItsLine) {
     if (!result) continue;
     messages.push_back(result->messages);
     on_line += result->on_line;
-    if (std::getenv("RGC_SHOW_MUTATIONS") && (result->messages > 1 || !result->on_line)) std::printf("== %zu messages, %s\n%s\n", result->messages, result->on_line ? "placed" : "MISPLACED", result->shown.c_str());
+    if (std::getenv("RGC_SHOW_MUTATIONS") && (result->messages > 1 || !result->on_line))
+      std::printf("== %zu messages, %s\n%s\n", result->messages, result->on_line ? "placed" : "MISPLACED", result->shown.c_str());
   }
   std::sort(messages.begin(), messages.end());
   ASSERT_GT(messages.size(), kMutations / 2);
   const double placed = static_cast<double>(on_line) / static_cast<double>(messages.size());
   RecordProperty("median", static_cast<int>(messages[messages.size() / 2]));
-  std::printf("%zu of %zu mutations are errors; messages: median %zu, 90 %% at most %zu, most %zu; first on the line: %.1f %%\n", messages.size(), size_t{kMutations}, messages[messages.size() / 2],
-              messages[messages.size() * 9 / 10], messages.back(), 100 * placed);
+  std::printf("%zu of %zu mutations are errors; messages: median %zu, 90 %% at most %zu, most %zu; first on the line: %.1f %%\n", messages.size(),
+              size_t{kMutations}, messages[messages.size() / 2], messages[messages.size() * 9 / 10], messages.back(), 100 * placed);
   EXPECT_EQ(messages[messages.size() / 2], 1u);
   EXPECT_LE(messages[messages.size() * 9 / 10], 2u);
   EXPECT_GT(placed, 0.9);
