@@ -231,7 +231,11 @@ const char* why_maybe(const Pass& pass) {
   return "it keeps what it does not touch; declare `clear` or `covers`";
 }
 
-// The first cell of the range that nothing wrote, if others were.
+bool untouched(const Tracked& tracked, const Cell& cell) {
+  return !tracked.whole.always && tracked.whole.facts.empty() && !cell.always && cell.facts.empty();
+}
+
+// The first cell of the range that no pass ever writes for certain, if some do for others.
 std::string first_missing(const Walk& walk, const Access& access) {
   const Resource& image = walk.graph.resources[access.resource];
   const Tracked& tracked = walk.tracked[access.resource.value];
@@ -239,23 +243,23 @@ std::string first_missing(const Walk& walk, const Access& access) {
   uint32_t missing = UINT32_MAX;
   if (tracked.cells.empty()) return {};
   each_cell(image, access.range, [&](uint32_t cell) {
-    if (!cell_defined(walk, tracked, &tracked.cells[cell], {})) missing = cell;
+    if (untouched(tracked, tracked.cells[cell])) missing = cell;
     return missing == UINT32_MAX;
   });
   if (missing == UINT32_MAX) return {};
-  return "mip " + std::to_string(missing / image.layers % image.mips) + ", layer " + std::to_string(missing % image.layers);
+  return "mip " + std::to_string(mip_of_cell(image, missing)) + ", layer " + std::to_string(missing % image.layers);
 }
 
 void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& diagnostic) {
   const Resource& resource = walk.graph.resources[access.resource];
   const Tracked& tracked = walk.tracked[access.resource.value];
-  if (!tracked.may.empty()) {
+  const std::string missing = first_missing(walk, access);
+  if (missing.empty() && !tracked.may.empty()) {
     const Pass& writer = walk.graph.passes.rows[tracked.may.back()];
     diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
     return;
   }
-  if (const std::string missing = first_missing(walk, access); !missing.empty())
-    diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
+  if (!missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
   if (const Pass* later = find_later_writer(walk, pass + 1, access.resource))
     diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
   diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
@@ -320,6 +324,16 @@ void check_history(Walk& walk, ResourceId id) {
   walk.checker.diagnostics.report(std::move(diagnostic));
 }
 
+// An image of constant size always has the mips it declares.
+std::vector<MipLimit> effective_limits(const Walk& walk, const Pass& pass) {
+  std::vector<MipLimit> limits = pass.mip_limits;
+  std::erase_if(limits, [&](const MipLimit& limit) {
+    const Resource& image = walk.graph.resources[limit.image];
+    return known(walk, image.width) && (!image.height.valid() || known(walk, image.height)) && (!image.depth.valid() || known(walk, image.depth));
+  });
+  return limits;
+}
+
 }  // namespace
 
 void check_definitions(Checker& checker, const Graph& graph) {
@@ -330,7 +344,7 @@ void check_definitions(Checker& checker, const Graph& graph) {
     if (defined_from_start(graph.resources.rows[id])) walk.tracked[id].whole.always = true;
   for (uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
     const Pass& row = graph.passes.rows[pass];
-    const Fact when{row.guard, row.conditions, row.mip_limits};
+    const Fact when{row.guard, row.conditions, effective_limits(walk, row)};
     for (const Access& access : row.accesses) read(walk, pass, access, when);
     for (const Access& access : row.accesses) write(walk, pass, access, when);
   }
