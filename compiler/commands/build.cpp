@@ -1,19 +1,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <memory>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 
 namespace rg::commands {
 namespace {
-
-struct BuildOptions {
-  std::string file, folder = "generated", depfile, stamp;
-  bool quiet = false;
-  compiler::CompileOptions compile;
-};
 
 bool write_dependencies(const BuildOptions& options, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics) {
   const std::string target = options.stamp.empty() ? options.folder + "/manifest.txt" : options.stamp;
@@ -28,6 +21,8 @@ compiler::CompileOptions with_banner(const BuildOptions& options) {
   return compile;
 }
 
+}  // namespace
+
 int build(const BuildOptions& options) {
   const auto result = compile_or_report(options.file, with_banner(options));
   if (!result) return exit_input_wrong;
@@ -39,21 +34,6 @@ int build(const BuildOptions& options) {
   for (const std::string& name : written->removed) print(fmt::format("removed {}/{}\n", options.folder, name));
   print(fmt::format("{}: {} written, {} removed, {} unchanged\n", options.folder, written->changed.size(), written->removed.size(), written->unchanged));
   return exit_done;
-}
-
-}  // namespace
-
-void add_build(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("build", "compile a frame into C++ and SPIR-V; only what changed is written");
-  auto options = std::make_shared<BuildOptions>();
-  command->add_option("FILE", options->file, "the root .rg file")->required();
-  command->add_option("-o,--output", options->folder, "the folder of the generated files")->type_name("DIR")->capture_default_str();
-  command->add_option("--depfile", options->depfile, "write what was read as a Makefile rule")->type_name("FILE");
-  command->add_option("--stamp", options->stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
-  command->add_option("--command", options->compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")->type_name("TEXT");
-  command->add_flag("-q,--quiet", options->quiet, "say nothing on success");
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return build(*options); }; });
 }
 
 }  // namespace rg::commands

@@ -1,16 +1,8 @@
-#include <memory>
-
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 
 namespace rg::commands {
 namespace {
-
-struct CheckOptions {
-  std::vector<std::string> files;
-  bool json = false;
-  compiler::CompileOptions compile;
-};
 
 // Diagnostics of several files in one table of sources.
 void append(dsl::Diagnostics& all, dsl::SourceFiles& sources, const dsl::Diagnostics& diagnostics, const dsl::SourceFiles& more) {
@@ -28,6 +20,8 @@ void append(dsl::Diagnostics& all, dsl::SourceFiles& sources, const dsl::Diagnos
   for (const dsl::SourceFile& source : more) sources.add(source);
 }
 
+}  // namespace
+
 int check(const CheckOptions& options) {
   compiler::CompileOptions compile = options.compile;
   compile.until = compiler::Until::plans;
@@ -40,17 +34,6 @@ int check(const CheckOptions& options) {
     append(all, sources, diagnostics, result.sources);
   }
   return finish(all, sources, options.json);
-}
-
-}  // namespace
-
-void add_check(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("check", "diagnostics only: text, names, types, shaders, assertions");
-  auto options = std::make_shared<CheckOptions>();
-  command->add_option("FILE", options->files, "root .rg files, each with its imports")->required();
-  command->add_flag("--json", options->json, "diagnostics as JSON on stdout");
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return check(*options); }; });
 }
 
 }  // namespace rg::commands

@@ -32,15 +32,6 @@ size_t edits(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
-  command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
-  const auto off = [&](const char* flag, bool& what, const char* help) { command.add_flag_callback(flag, [&what] { what = false; }, help); };
-  off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
-  off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
-  off("--no-merge", options.plan.merge, "keep every rendering of its own");
-  off("--no-discard", options.plan.discard, "load and store all attachments");
-}
-
 int finish(dsl::Diagnostics& diagnostics, const dsl::SourceFiles& sources, bool json) {
   show_progress({});
   diagnostics.sort();

@@ -1,8 +1,6 @@
-// What all commands of rgc share: exit codes, options, where text goes.
+// The commands of rgc as functions, and what they share: exit codes, where text goes.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,21 +12,62 @@ namespace rg::commands {
 
 enum ExitCode { exit_done = 0, exit_input_wrong = 1, exit_call_wrong = 2, exit_our_fault = 3 };
 
-// Runs after the command line was understood; gives the exit code.
-using Run = std::function<int()>;
-// Adds one subcommand to `app`; the subcommand sets `run`.
-void add_build(CLI::App& app, Run& run);
-void add_check(CLI::App& app, Run& run);
-void add_fmt(CLI::App& app, Run& run);
-void add_verify(CLI::App& app, Run& run);
-void add_explain(CLI::App& app, Run& run);
-void add_report(CLI::App& app, Run& run);
-void add_graph(CLI::App& app, Run& run);
-void add_diff(CLI::App& app, Run& run);
-void add_emit(CLI::App& app, Run& run);
+// ---- the commands: options as plain values, the exit code as the result -------------------------------------------------
 
-// Options that change the plan: -D NAME=VALUE and the work-around switches.
-void add_plan_options(CLI::App& command, compiler::CompileOptions& options);
+struct BuildOptions {
+  std::string file, folder = "generated", depfile, stamp;
+  bool quiet = false;
+  compiler::CompileOptions compile;
+};
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool json = false;
+  compiler::CompileOptions compile;
+};
+struct FmtOptions {
+  std::vector<std::string> files;
+  bool check = false;
+};
+struct VerifyCommand {
+  std::string file;
+  bool mutate = false;
+  compiler::CompileOptions compile;
+};
+struct ExplainOptions {
+  std::string file_or_code, name;
+  bool codes = false;
+  compiler::CompileOptions compile;
+};
+struct ReportOptions {
+  std::string file;
+  bool json = false;
+  compiler::CompileOptions compile;
+};
+struct GraphOptions {
+  std::string file;
+  bool dot = false;
+  compiler::CompileOptions compile;
+};
+struct DiffOptions {
+  std::string before, after;
+  compiler::CompileOptions compile;
+};
+struct EmitOptions {
+  std::string stage, file;
+  compiler::CompileOptions compile;
+};
+int build(const BuildOptions& options);
+int check(const CheckOptions& options);
+int format_files(const FmtOptions& options);
+int verify_file(const VerifyCommand& options);
+int explain(const ExplainOptions& options);
+int report(const ReportOptions& options);
+int show_graph(const GraphOptions& options);
+int diff(const DiffOptions& options);
+int emit(const EmitOptions& options);
+std::vector<std::string> emit_stages();
+
+// ---- what they share ---------------------------------------------------------------------------------------------------
 
 // Prints diagnostics to stderr, in colour on a terminal, or as JSON to stdout. exit_input_wrong if any is an error.
 int finish(dsl::Diagnostics& diagnostics, const dsl::SourceFiles& sources, bool json = false);

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/facts.h"
@@ -9,11 +8,6 @@
 
 namespace rg::commands {
 namespace {
-
-struct DiffOptions {
-  std::string before, after;
-  compiler::CompileOptions compile;
-};
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -81,6 +75,8 @@ std::string text_of(const compiler::CompileResult& result) {
   return text;
 }
 
+}  // namespace
+
 int diff(const DiffOptions& options) {
   compiler::CompileOptions compile = options.compile;
   compile.until = compiler::Until::plans;
@@ -90,17 +86,6 @@ int diff(const DiffOptions& options) {
   const std::string changes = text_diff(text_of(*before), text_of(*after));
   print(changes.empty() ? "the plans are equal\n" : changes);
   return exit_done;
-}
-
-}  // namespace
-
-void add_diff(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("diff", "what a change does to the plan");
-  auto options = std::make_shared<DiffOptions>();
-  command->add_option("OLD", options->before, "a root .rg file")->required();
-  command->add_option("NEW", options->after, "another")->required();
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return diff(*options); }; });
 }
 
 }  // namespace rg::commands

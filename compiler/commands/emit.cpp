@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "compiler/codegen/plan_values.h"
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
@@ -13,11 +11,6 @@
 
 namespace rg::commands {
 namespace {
-
-struct EmitOptions {
-  std::string stage, file;
-  compiler::CompileOptions compile;
-};
 
 // Tokens or tree of the root file alone: what there is before names mean anything.
 int emit_syntax(const std::string& path, bool tree) {
@@ -112,6 +105,14 @@ constexpr StageRow kStages[] = {
     {"spirv", Until::files, [](const compiler::CompileResult& result) { return emit_files(result, true); }},
 };
 
+}  // namespace
+
+std::vector<std::string> emit_stages() {
+  std::vector<std::string> names = {"tokens", "tree"};
+  for (const StageRow& row : kStages) names.push_back(row.name);
+  return names;
+}
+
 int emit(const EmitOptions& options) {
   if (options.stage == "tokens" || options.stage == "tree") return emit_syntax(options.file, options.stage == "tree");
   for (const StageRow& row : kStages) {
@@ -123,23 +124,6 @@ int emit(const EmitOptions& options) {
     return result ? row.emit(*result) : exit_input_wrong;
   }
   return exit_call_wrong;
-}
-
-std::vector<std::string> stage_names() {
-  std::vector<std::string> names = {"tokens", "tree"};
-  for (const StageRow& row : kStages) names.push_back(row.name);
-  return names;
-}
-
-}  // namespace
-
-void add_emit(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("emit", "what a phase gives, as text");
-  auto options = std::make_shared<EmitOptions>();
-  command->add_option("STAGE", options->stage, "which phase")->required()->check(CLI::IsMember(stage_names()));
-  command->add_option("FILE", options->file, "the root .rg file")->required();
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return emit(*options); }; });
 }
 
 }  // namespace rg::commands

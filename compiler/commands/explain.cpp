@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/plan_text.h"
@@ -10,12 +9,6 @@ namespace rg::commands {
 namespace {
 
 using dsl::DiagnosticKind;
-
-struct ExplainOptions {
-  std::string file_or_code, name;
-  bool codes = false;
-  compiler::CompileOptions compile;
-};
 
 // ---- diagnostic codes ------------------------------------------------------------------------------------------------
 
@@ -145,24 +138,14 @@ int explain_name(const ExplainOptions& options) {
   return exit_done;
 }
 
+}  // namespace
+
 int explain(const ExplainOptions& options) {
   if (options.codes) return list_codes();
   if (options.name.empty() && is_code(options.file_or_code)) return explain_code(options.file_or_code);
   if (!options.name.empty()) return explain_name(options);
   fmt::print(stderr, "explain: a file and a name, or a code, or --codes is required\nRun with --help for more information.\n");
   return exit_call_wrong;
-}
-
-}  // namespace
-
-void add_explain(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("explain", "why a pass, resource or barrier is as it is; what a diagnostic code means");
-  auto options = std::make_shared<ExplainOptions>();
-  command->add_option("FILE|CODE", options->file_or_code, "the root .rg file, or a code such as RG0301");
-  command->add_option("NAME", options->name, "a pass or resource; `bloom_down` also means bloom_down[0] and its siblings");
-  command->add_flag("--codes", options->codes, "list all diagnostic codes");
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return explain(*options); }; });
 }
 
 }  // namespace rg::commands

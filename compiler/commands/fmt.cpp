@@ -1,18 +1,11 @@
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 #include "dsl/format.h"
 
 namespace rg::commands {
 namespace {
-
-struct FmtOptions {
-  std::vector<std::string> files;
-  bool check = false;
-};
 
 // One file; whatever is wrong is reported, and then the file stays as it is.
 void format_file(const std::string& path, bool check, dsl::SourceFiles& sources, dsl::Diagnostics& diagnostics) {
@@ -31,21 +24,13 @@ void format_file(const std::string& path, bool check, dsl::SourceFiles& sources,
     print(fmt::format("formatted {}\n", path));
 }
 
+}  // namespace
+
 int format_files(const FmtOptions& options) {
   dsl::SourceFiles sources;
   dsl::Diagnostics diagnostics;
   for (const std::string& path : options.files) format_file(path, options.check, sources, diagnostics);
   return finish(diagnostics, sources);
-}
-
-}  // namespace
-
-void add_fmt(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("fmt", "one style for .rg files");
-  auto options = std::make_shared<FmtOptions>();
-  command->add_option("FILE", options->files, ".rg files")->required();
-  command->add_flag("--check", options->check, "change nothing; fail if a file is not formatted");
-  command->callback([=, &run] { run = [=] { return format_files(*options); }; });
 }
 
 }  // namespace rg::commands

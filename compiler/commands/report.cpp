@@ -1,18 +1,10 @@
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "compiler/commands/command.h"
 #include "compiler/commands/facts.h"
 
 namespace rg::commands {
 namespace {
-
-struct ReportOptions {
-  std::string file;
-  bool json = false;
-  compiler::CompileOptions compile;
-};
 
 std::string mib(uint64_t bytes) { return fmt::format("{:.2f} MiB", static_cast<double>(bytes) / (1024.0 * 1024.0)); }
 
@@ -41,6 +33,8 @@ nlohmann::ordered_json json_of(const std::vector<Facts>& all) {
   return json;
 }
 
+}  // namespace
+
 int report(const ReportOptions& options) {
   compiler::CompileOptions compile = options.compile;
   compile.until = compiler::Until::plans;
@@ -55,17 +49,6 @@ int report(const ReportOptions& options) {
   }
   if (options.json) print(json_of(all).dump(2) + "\n");
   return exit_done;
-}
-
-}  // namespace
-
-void add_report(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("report", "memory, barriers, queues, variants and costs beside their bounds");
-  auto options = std::make_shared<ReportOptions>();
-  command->add_option("FILE", options->file, "the root .rg file")->required();
-  command->add_flag("--json", options->json, "the same facts as JSON; see docs/cli.md");
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return report(*options); }; });
 }
 
 }  // namespace rg::commands

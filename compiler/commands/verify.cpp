@@ -2,19 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-
 #include "compiler/commands/command.h"
 #include "compiler/configurations.h"
 
 namespace rg::commands {
 namespace {
-
-struct VerifyCommand {
-  std::string file;
-  bool mutate = false;
-  compiler::CompileOptions compile;
-};
 
 std::string subject(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
   const std::string variant = compiler::configuration_name(result.program, plan.configuration);
@@ -33,6 +25,8 @@ bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph&
   return findings.empty();
 }
 
+}  // namespace
+
 int verify_file(const VerifyCommand& options) {
   compiler::CompileOptions compile = options.compile;
   compile.until = compiler::Until::plans;
@@ -42,17 +36,6 @@ int verify_file(const VerifyCommand& options) {
   for (const compiler::CompiledGraph& graph : result->graphs)
     for (const compiler::FramePlan& plan : graph.plans) proved &= prove(*result, graph, plan);
   return proved ? exit_done : exit_our_fault;  // the planner made what the checker does not accept
-}
-
-}  // namespace
-
-void add_verify(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("verify", "prove that the plans mean what the program says");
-  auto options = std::make_shared<VerifyCommand>();
-  command->add_option("FILE", options->file, "the root .rg file")->required();
-  command->add_flag("--mutate", options->mutate, "test the checker: every damaged plan must be rejected");
-  add_plan_options(*command, options->compile);
-  command->callback([=, &run] { run = [=] { return verify_file(*options); }; });
 }
 
 }  // namespace rg::commands

@@ -1,0 +1,145 @@
+#include "compiler/commands/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+#include <memory>
+
+#include "compiler/commands/command.h"
+
+namespace rg::commands {
+namespace {
+
+using Run = std::function<int()>;  // set while the words are read, called afterwards
+
+// Options that change the plan.
+void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
+  command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
+  const auto off = [&](const char* flag, bool& what, const char* help) { command.add_flag_callback(flag, [&what] { what = false; }, help); };
+  off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
+  off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
+  off("--no-merge", options.plan.merge, "keep every rendering of its own");
+  off("--no-discard", options.plan.discard, "load and store all attachments");
+}
+
+// A subcommand that fills `Options` and then runs `work`.
+template <class Options>
+struct Subcommand {
+  CLI::App* command;
+  std::shared_ptr<Options> options = std::make_shared<Options>();
+
+  Subcommand(CLI::App& app, Run& run, const char* name, const char* help, int (*work)(const Options&)) : command(app.add_subcommand(name, help)) {
+    command->callback([options = options, work, &run] { run = [=] { return work(*options); }; });
+  }
+  CLI::App* operator->() const { return command; }
+};
+
+constexpr const char* kRootFile = "the root .rg file";
+
+void add_build(CLI::App& app, Run& run) {
+  Subcommand<BuildOptions> command(app, run, "build", "compile a frame into C++ and SPIR-V; only what changed is written", build);
+  BuildOptions& options = *command.options;
+  command->add_option("FILE", options.file, kRootFile)->required();
+  command->add_option("-o,--output", options.folder, "the folder of the generated files")->type_name("DIR")->capture_default_str();
+  command->add_option("--depfile", options.depfile, "write what was read as a Makefile rule")->type_name("FILE");
+  command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
+  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")->type_name("TEXT");
+  command->add_flag("-q,--quiet", options.quiet, "say nothing on success");
+  add_plan_options(*command.command, options.compile);
+}
+
+void add_check(CLI::App& app, Run& run) {
+  Subcommand<CheckOptions> command(app, run, "check", "diagnostics only: text, names, types, shaders, assertions", check);
+  command->add_option("FILE", command.options->files, "root .rg files, each with its imports")->required();
+  command->add_flag("--json", command.options->json, "diagnostics as JSON on stdout");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_fmt(CLI::App& app, Run& run) {
+  Subcommand<FmtOptions> command(app, run, "fmt", "one style for .rg files", format_files);
+  command->add_option("FILE", command.options->files, ".rg files")->required();
+  command->add_flag("--check", command.options->check, "change nothing; fail if a file is not formatted");
+}
+
+void add_verify(CLI::App& app, Run& run) {
+  Subcommand<VerifyCommand> command(app, run, "verify", "prove that the plans mean what the program says", verify_file);
+  command->add_option("FILE", command.options->file, kRootFile)->required();
+  command->add_flag("--mutate", command.options->mutate, "test the checker: every damaged plan must be rejected");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_explain(CLI::App& app, Run& run) {
+  Subcommand<ExplainOptions> command(app, run, "explain", "why a pass, resource or barrier is as it is; what a diagnostic code means", explain);
+  command->add_option("FILE|CODE", command.options->file_or_code, "the root .rg file, or a code such as RG0301");
+  command->add_option("NAME", command.options->name, "a pass or resource; `bloom_down` also means bloom_down[0] and its siblings");
+  command->add_flag("--codes", command.options->codes, "list all diagnostic codes");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_report(CLI::App& app, Run& run) {
+  Subcommand<ReportOptions> command(app, run, "report", "memory, barriers, queues, variants and costs beside their bounds", report);
+  command->add_option("FILE", command.options->file, kRootFile)->required();
+  command->add_flag("--json", command.options->json, "the same facts as JSON; see docs/cli.md");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_graph(CLI::App& app, Run& run) {
+  Subcommand<GraphOptions> command(app, run, "graph", "passes and the resources between them", show_graph);
+  command->add_option("FILE", command.options->file, kRootFile)->required();
+  command->add_flag("--dot", command.options->dot, "for Graphviz");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_diff(CLI::App& app, Run& run) {
+  Subcommand<DiffOptions> command(app, run, "diff", "what a change does to the plan", diff);
+  command->add_option("OLD", command.options->before, "a root .rg file")->required();
+  command->add_option("NEW", command.options->after, "another")->required();
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_emit(CLI::App& app, Run& run) {
+  Subcommand<EmitOptions> command(app, run, "emit", "what a phase gives, as text", emit);
+  command->add_option("STAGE", command.options->stage, "which phase")->required()->check(CLI::IsMember(emit_stages()));
+  command->add_option("FILE", command.options->file, kRootFile)->required();
+  add_plan_options(*command.command, command.options->compile);
+}
+
+// CLI11 would only say that a subcommand is missing.
+bool names_a_command(const CLI::App& app, const std::string& word) {
+  if (word.starts_with('-')) return true;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return true;
+  const auto meant = nearest(word, names);
+  std::fprintf(stderr, "rgc: there is no command `%s`%s\n", word.c_str(), meant ? ("; did you mean `" + *meant + "`?").c_str() : "");
+  std::fprintf(stderr, "Run with --help for more information.\n");
+  return false;
+}
+
+int run_and_flush(const Run& run) {
+  const int code = run();
+  show_progress({});
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+  std::perror("rgc: cannot write to stdout");
+  return exit_input_wrong;
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  CLI::App app{"rgc compiles a render graph: .rg files become C++ and SPIR-V.", "rgc"};
+  app.require_subcommand(1);
+  app.set_version_flag("--version", "rgc 0.1.0");
+  app.footer("Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.");
+  Run run;
+  for (auto* add : {add_build, add_check, add_fmt, add_verify, add_explain, add_report, add_graph, add_diff, add_emit}) add(app, run);
+  if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? exit_done : exit_call_wrong;
+  }
+  return run_and_flush(run);
+}
+
+}  // namespace rg::commands
