@@ -77,7 +77,7 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     draw   host { per_draw PropDraw  vertex PropVertex }
   }
 
-  image depth_range : rg32f ceil(view / TILE) mips DEPTH_MIPS   // least and greatest depth; mip 0: one texel a light tile
+  image depth_range : rg32f ceil(view / TILE) mips DEPTH_MIPS  // least and greatest depth; mip 0: one texel a light tile
 
   pass depth_range_first : compute {
     shader "passes/culling/depth_range_first.comp" group 8 8 1
@@ -95,12 +95,12 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
   }
 
   // ---- lights -----------------------------------------------------------------------------------------------------
-  buffer zbin_min : u32[ZBINS]
-  buffer zbin_max : u32[ZBINS]
-  buffer zbins    : u32[ZBINS]           // first light in the low half, last in the high half
-  buffer lights_seen    : u32[LIGHT_WORDS]                             // not hidden behind the depth pyramid
-  buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]    // that reach what is opaque in the tile
-  buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]    // that reach anything in front of it
+  buffer zbin_min       : u32[ZBINS]
+  buffer zbin_max       : u32[ZBINS]
+  buffer zbins          : u32[ZBINS]                                 // first light in the low half, last in the high half
+  buffer lights_seen    : u32[LIGHT_WORDS]                           // not hidden behind the depth pyramid
+  buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach what is opaque in the tile
+  buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach anything in front of it
   buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
 
   pass zbin_build : compute {
@@ -146,11 +146,11 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
   }
 
   // ---- G-buffer ---------------------------------------------------------------------------------------------------
-  image albedo   : rgba8 view              // a: share of the sky that is seen
-  image normal   : rg16 view               // octahedral
-  image material : rgba8 view              // roughness, metallic, bounced light, -
+  image albedo   : rgba8 view  // a: share of the sky that is seen
+  image normal   : rg16 view   // octahedral
+  image material : rgba8 view  // roughness, metallic, bounced light, -
   image emissive : r11g11b10f view
-  image velocity : rg16f view              // to last frame's place, in texture coordinates
+  image velocity : rg16f view  // to last frame's place, in texture coordinates
 
   pass gbuffer_world : raster {
     shader "passes/geometry/gbuffer_world.vert" "passes/geometry/gbuffer_world.frag"
@@ -230,7 +230,7 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     depth  depth readonly
     draw   host { per_draw GlassDraw }
   }
-  pass hologram : raster {                 // pipelines of the host's own, built from PassInfo
+  pass hologram : raster {  // pipelines of the host's own, built from PassInfo
     color  hdr blend add(one, one)
     depth  depth readonly
     draw   host { per_draw HologramDraw }
@@ -259,7 +259,7 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
   // ---- post -------------------------------------------------------------------------------------------------------
   buffer histogram : u32[HISTOGRAM_BINS]
   buffer exposure  : Exposure[1] history 1 init clear 0
-  image  color     : rgba16f view history 1 init clear 0      // a: 1 where it holds a frame
+  image  color     : rgba16f view history 1 init clear 0  // a: 1 where it holds a frame
   image  bloom     : rgba16f view / 2 mips BLOOM_MIPS
 
   pass luminance : compute {

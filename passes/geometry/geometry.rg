@@ -2,11 +2,11 @@
 module geometry
 
 struct DrawArguments { vertex_count: u32  instance_count: u32  first_vertex: u32  first_instance: u32 }
-struct PropDraw { model: mat3x4  previous: mat3x4  tint: vec3  swing: f32  swing_before: f32  sky: f32 }   // sky: share of it that is seen
+struct PropDraw { model: mat3x4  previous: mat3x4  tint: vec3  swing: f32  swing_before: f32  sky: f32 }  // sky: share of it that is seen
 struct GlassDraw { instance: u32 }
 struct HologramDraw { model_to_clip: mat4  color: vec4 }
 
-const COUNT_VISIBLE = 0            // of `cull_counts`
+const COUNT_VISIBLE = 0  // of `cull_counts`
 const COUNT_OUTSIDE = 1
 const COUNT_SUN = 2
 const COUNT_TRIANGLES = 3
