@@ -49,7 +49,7 @@ template <class Holds>
 bool for_all_events(const CellBarrier& b, Holds holds) {
   return std::all_of(b.sources.begin(), b.sources.end(), [&](const Event& event) {
     for (Stages rest = event.stages; rest; rest &= rest - 1)
-      if (!holds(rest & ~(rest - 1), b.wraps ? 0 : event.segment + 1)) return false;
+      if (!holds(rest & ~(rest - 1), event.earlier_frame ? 0 : event.segment + 1)) return false;
     return true;
   });
 }
@@ -64,22 +64,26 @@ bool reaches_any(const Chains& chains, Stages stage, uint32_t first, uint32_t in
 
 bool execution_only(const CellBarrier& b) { return b.src_accesses == 0 && b.dst_accesses == 0 && b.old_layout == b.new_layout; }
 
-// What the barrier orders is ordered by the groups before its own, or by another barrier of its group.
-bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index) {
-  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) {
-    if (chains.reaches(stage, first, index, b.dst_stages)) return true;
-    return std::any_of(group.begin(), group.end(), [&](const CellBarrier& other) {
-      const Scopes scopes = scopes_of(other);
-      return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, stage, first, index, scopes.first);
-    });
+// Groups before the barrier's own, or another barrier of its group, order `stage` of a command before groups `first` and on before what the barrier does.
+bool is_ordered_anyway(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, Stages stage, uint32_t first, uint32_t index) {
+  if (chains.reaches(stage, first, index, b.dst_stages)) return true;
+  return std::any_of(group.begin(), group.end(), [&](const CellBarrier& other) {
+    const Scopes scopes = scopes_of(other);
+    return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, stage, first, index, scopes.first);
   });
 }
 
-// Everything the barrier waits for still reaches its first scope when `dropped` is taken out of it.
-bool reaches_without(const Chains& chains, const CellBarrier& b, uint32_t index, Stages dropped) {
+bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index) {
+  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) { return is_ordered_anyway(chains, group, b, stage, first, index); });
+}
+
+// Everything the barrier waits for still reaches its first scope when `dropped` is taken out of it; or need not, where only the order counts.
+bool holds_without(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index, Stages dropped) {
   const Stages rest = with_earlier(b.src_stages & ~dropped);
-  return !b.sources.empty() &&
-         for_all_events(b, [&](Stages stage, uint32_t first) { return reaches_any(chains, stage, first, index, rest); });
+  const bool transition = b.old_layout != b.new_layout;
+  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) {
+    return reaches_any(chains, stage, first, index, rest) || (!transition && is_ordered_anyway(chains, group, b, stage, first, index));
+  });
 }
 
 }  // namespace
@@ -94,7 +98,7 @@ void drop_implied(SyncPlan& sync) {
     if (group.size() != before) chains.refresh(g);
     for (CellBarrier& b : group)
       for (Stages bits = b.src_stages; bits; bits &= bits - 1) {
-        if (b.src_accesses != 0 || std::popcount(b.src_stages) < 2 || !reaches_without(chains, b, g, bits & ~(bits - 1))) continue;
+        if (b.src_accesses != 0 || std::popcount(b.src_stages) < 2 || !holds_without(chains, group, b, g, bits & ~(bits - 1))) continue;
         b.src_stages &= ~(bits & ~(bits - 1));
         chains.refresh(g);
       }

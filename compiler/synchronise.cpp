@@ -25,6 +25,18 @@ const char* hazard_name(const Side& from, const Side& to, bool discards) {
   return to.writes ? "write after read" : "layout";
 }
 
+bool is_subset(uint64_t part, uint64_t whole) { return (part & ~whole) == 0; }
+
+// The reads of `effect` that `seen` lacks; all of them where neither its stages nor its accesses tell them apart.
+Effect not_seen(const Effect& effect, const Effect& seen) {
+  Effect result = effect;
+  if (is_subset(effect.read_stages, seen.read_stages))
+    result.reads &= ~seen.reads;
+  else if (is_subset(effect.reads, seen.reads))
+    result.read_stages &= ~seen.read_stages;
+  return result;
+}
+
 class Synchroniser {
  public:
   Synchroniser(const Frame& frame, const Schedule& schedule, const PlanOptions& options) : frame_(frame), schedule_(schedule), options_(options) {
@@ -78,6 +90,7 @@ class Synchroniser {
     if (rewrites || !from.writes) b.src_stages |= latest_stages(from.effect.read_stages | from.effect.write_stages) & ~from.effect.write_stages;
     fill_second_scope(b, from, to, new_layout);
     b.sources = from.events;
+    b.wraps = std::any_of(from.events.begin(), from.events.end(), [](const Event& event) { return event.earlier_frame; });
     b.reason = hazard_name(from, to, discards);
     return b;
   }
@@ -89,10 +102,10 @@ class Synchroniser {
       return;
     }
     // Contents made available before, not yet visible to all reads of this one.
-    const Stages unseen = (e.reads & ~to.seen.reads) ? e.read_stages : e.read_stages & ~to.seen.read_stages;
-    const bool visible = unseen == 0 || ((e.reads & ~from.effect.reads) == 0 && (e.read_stages & ~from.effect.read_stages) == 0);
-    if (to.needs && from.defined && e.reads && !visible)
-      b.dst_stages = unseen | earliest_stages(e.write_stages), b.dst_accesses = e.reads;
+    const Effect unseen = not_seen(e, to.seen);
+    const bool visible = unseen.reads == 0 || (is_subset(e.reads, from.effect.reads) && is_subset(e.read_stages, from.effect.read_stages));
+    if (to.needs && from.defined && !visible)
+      b.dst_stages = unseen.read_stages | earliest_stages(e.write_stages), b.dst_accesses = unseen.reads;
     else
       b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
     // Without the readers in between this is a write after the write before them: made available by the barrier that serves them, not yet visible.
@@ -122,9 +135,10 @@ class Synchroniser {
 
   void transient(const Line& line) {
     const uint32_t resource = frame_.cells[line.cell].resource, group = first_segment_[resource];
-    const Side last = side_of(line.cell, line.epochs.back(), false);
+    Side last = side_of(line.cell, line.epochs.back(), false);
+    for (Event& event : last.events) event.earlier_frame = true;
     CellBarrier acquire = connect(line.cell, last, side_of(line.cell, line.epochs.front(), true));
-    acquire.is_acquire = acquire.wraps = true;
+    acquire.is_acquire = true;
     add(group, std::move(acquire));
     connect_within(line, 0, line.epochs.size(), false);
     note_hand_over(resource, group, line.epochs.front().effect, line.epochs.back().effect);
@@ -148,9 +162,7 @@ class Synchroniser {
     for (size_t i = 0; i < epochs.size(); ++i) {
       const Epoch &from = epochs[(i + epochs.size() - 1) % epochs.size()], &to = epochs[i];
       if (continues(from, to)) continue;
-      CellBarrier b = connect(cell_at(line, to.age), with_continued_reads(line, i), side_of(line.cell, to, true));
-      b.wraps = i == 0 || from.age != to.age;
-      add(to.first_segment, std::move(b));
+      add(to.first_segment, connect(cell_at(line, to.age), with_continued_reads(line, i), side_of(line.cell, to, true)));
     }
     state_circle(line);
   }
@@ -171,12 +183,19 @@ class Synchroniser {
   // The epoch before epochs[i] with the reads it continues over frame boundaries: whoever writes next waits for all of them.
   Side with_continued_reads(const Line& line, size_t i) const {
     const size_t n = line.epochs.size();
-    Side side = side_of(line.cell, line.epochs[(i + n - 1) % n], true);
+    const auto at = [&](size_t back) {
+      const size_t from = (i + n - back) % n;
+      Side side = side_of(line.cell, line.epochs[from], true);
+      const bool earlier = i == n || from >= i || line.epochs[from].age != line.epochs[i].age;
+      for (Event& event : side.events) event.earlier_frame = earlier;
+      return side;
+    };
+    Side side = at(1);
     for (size_t back = 2; back <= n && continues(line.epochs[(i + n - back) % n], line.epochs[(i + n - back + 1) % n]); ++back) {
-      const Side earlier = side_of(line.cell, line.epochs[(i + n - back) % n], true);
-      merge(side.effect, earlier.effect);
-      side.events.insert(side.events.end(), earlier.events.begin(), earlier.events.end());
-      side.skippable = side.skippable && earlier.skippable;
+      const Side before = at(back);
+      merge(side.effect, before.effect);
+      side.events.insert(side.events.end(), before.events.begin(), before.events.end());
+      side.skippable = side.skippable && before.skippable;
     }
     return side;
   }
@@ -192,17 +211,15 @@ class Synchroniser {
     if (!is_visible(before, first)) {
       Side to = side_of(line.cell, first, true);
       if (before.defined && !before.writes) to.seen = before.effect;
-      CellBarrier b = connect(line.cell, before, to);
-      b.wraps = true;
-      add(first.first_segment, std::move(b));
+      add(first.first_segment, connect(line.cell, before, to));
     }
     const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
     const Epoch& last = whole.epochs.back();
     Side next{after, after.writes != 0, true, true, {}, false, {}};
-    const auto writes = [](const Epoch& epoch) { return epoch.writes; };
-    if (before.defined && !before.writes && std::none_of(whole.epochs.begin(), whole.epochs.end(), writes)) next.seen = before.effect;
+    const auto changes = [&](const Epoch& epoch) { return epoch.writes || epoch.effect.layout != before.effect.layout; };
+    if (before.defined && !before.writes && std::none_of(whole.epochs.begin(), whole.epochs.end(), changes)) next.seen = before.effect;
     const bool stays = resource.after.role == dsl::Role::undefined || continues_after(last, after);
-    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, defined), next)});
+    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, unnamed(side_of(line.cell, last, defined), after), next)});
     boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
     const bool undefined_after = resource.after.role == dsl::Role::undefined;
     boundary(sync_.exit, line.cell, undefined_after ? last.effect : after, undefined_after ? last.writes : next.writes,
@@ -214,12 +231,12 @@ class Synchroniser {
   Side state_before(const dsl::Resource& resource, uint32_t aspect, const Epoch& first) const {
     Side side{effect_of(resource.before, aspect), false, true, true, {}, false, {}};
     side.writes = side.effect.writes != 0;
-    side.events = {{0, side.effect.stages(), UINT32_MAX}};
+    side.events = {{0, side.effect.stages(), UINT32_MAX, true}};
     if (resource.before.role != dsl::Role::undefined) return side;
     side.defined = false;
     const Effect after = effect_of(resource.after, aspect);
     side.effect = {after.stages() ? after.stages() : first.effect.stages(), 0, 0, 0, Layout::undefined};
-    side.events = {{0, side.effect.stages(), UINT32_MAX}};
+    side.events = {{0, side.effect.stages(), UINT32_MAX, true}};
     return side;
   }
 
@@ -231,12 +248,20 @@ class Synchroniser {
   }
   // Whoever waits for the state after the frame waits for these reads, too.
   static bool continues_after(const Epoch& last, const Effect& after) {
-    return !last.writes && after.writes == 0 && after.layout == last.effect.layout && (last.effect.stages() & ~with_earlier(after.stages())) == 0;
+    return !last.writes && after.writes == 0 && after.layout == last.effect.layout && is_subset(last.effect.stages(), with_earlier(after.stages()));
+  }
+
+  // Reads that the state after the frame names anyway need no barrier at its end.
+  static Side unnamed(Side last, const Effect& after) {
+    if (last.writes || after.writes || last.effect.layout != after.layout) return last;
+    last.effect.read_stages &= ~with_earlier(after.stages());
+    for (Event& event : last.events) event.stages &= ~with_earlier(after.stages());
+    return last;
   }
 
   static bool is_visible(const Side& before, const Epoch& first) {
     const Effect &b = before.effect, &f = first.effect;
-    return before.defined && !before.writes && !first.writes && b.layout == f.layout && (f.reads & ~b.reads) == 0 && (f.read_stages & ~b.read_stages) == 0;
+    return before.defined && !before.writes && !first.writes && b.layout == f.layout && is_subset(f.reads, b.reads) && is_subset(f.read_stages, b.read_stages);
   }
 
   void readback(const Line& line) {
