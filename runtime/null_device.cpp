@@ -60,6 +60,7 @@ void first_argument(NullLine&, Handle) {}
 
 template <class First, class... Rest>
 void begin_line(NullLine& line, const char* name, First first, Rest... rest) {
+  if (!line.wanted()) return;
   line.text(name);
   first_argument(line, first);
   (print_argument(line, rest), ...);

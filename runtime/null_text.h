@@ -41,6 +41,7 @@ RG_HANDLE(VkCommandPool, "command_pool")
 class NullLine {
  public:
   explicit NullLine(std::string* log) : log_(log) {}
+  bool wanted() const { return log_ != nullptr; }
   void text(std::string_view value) {
     if (log_ != nullptr) log_->append(value);
   }
@@ -58,6 +59,7 @@ class NullLine {
  private:
   template <class Value>
   void format(const char* pattern, Value value) {
+    if (log_ == nullptr) return;
     char buffer[32];
     const int size = std::snprintf(buffer, sizeof buffer, pattern, value);
     text({buffer, static_cast<size_t>(size)});
