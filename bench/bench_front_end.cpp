@@ -11,7 +11,8 @@ Rows bench_front_end(const std::string& graphs) {
     if (!graph) continue;
     const double ms = median_ms(5, [&] {
       dsl::Diagnostics diagnostics;
-      dsl::load_program(graph->path, [&](const std::string&, std::string&) { return std::optional(graph->text); }, diagnostics);
+      dsl::load_program(
+          graph->path, [&](const std::string&, std::string&) { return std::optional(graph->text); }, diagnostics);
     });
     const double megabytes = static_cast<double>(graph->text.size()) / 1e6;
     rows.push_back({std::string("front_end/") + reference.graph + "/check", ms, "ms", {}, ""});

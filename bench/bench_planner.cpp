@@ -11,7 +11,8 @@ constexpr double kMB = 1e6;
 double persistent_bytes(const PlanData& plan) {
   double bytes = 0;
   for (const Resource& resource : plan.resources)
-    if (resource.lifetime == Lifetime::history || resource.lifetime == Lifetime::persistent) bytes += static_cast<double>(resource.estimated_bytes) * resource.copies;
+    if (resource.lifetime == Lifetime::history || resource.lifetime == Lifetime::persistent)
+      bytes += static_cast<double>(resource.estimated_bytes) * resource.copies;
   return bytes;
 }
 
@@ -49,10 +50,12 @@ Rows rows_of(const BenchGraph& graph, const std::string& graphs) {
     rows.push_back({prefix + "culled", static_cast<double>(needed.plan.culled.size()), "count", {}, ""});
   }
   rows.push_back({prefix + "heap", (static_cast<double>(plan.heap_bytes) + persistent) / kMB, "MB", reference.heap_mb, "their best setting"});
-  rows.push_back({prefix + "bound", (static_cast<double>(plan.lower_bound_bytes) + persistent) / kMB, "MB", reference.bound_mb, "theirs counts passes, ours groups"});
+  rows.push_back({prefix + "bound", (static_cast<double>(plan.lower_bound_bytes) + persistent) / kMB, "MB", reference.bound_mb,
+                  "theirs counts passes, ours groups"});
   rows.push_back({prefix + "barrier_calls", barrier_calls(plan.plan), "count", reference.barrier_calls, ""});
-  rows.push_back({prefix + "barriers", static_cast<double>(plan.plan.memory_barriers.size() + plan.plan.image_barriers.size() + plan.plan.buffer_barriers.size()),
-                  "count", reference.barriers, ""});
+  rows.push_back({prefix + "barriers",
+                  static_cast<double>(plan.plan.memory_barriers.size() + plan.plan.image_barriers.size() + plan.plan.buffer_barriers.size()), "count",
+                  reference.barriers, ""});
   return rows;
 }
 

@@ -13,8 +13,8 @@ namespace rg::bench {
 struct Reference {
   const char* graph;
   double plan_ms, barrier_calls, barriers, blunt_barriers;
-  double heap_mb;         // the least of its three settings; persistent images included
-  double bound_mb;        // program order, live bytes by pass
+  double heap_mb;                             // the least of its three settings; persistent images included
+  double bound_mb;                            // program order, live bytes by pass
   double record_null_us, record_lavapipe_us;  // CPU time of recording
 };
 extern const std::vector<Reference> kReferences;

@@ -19,9 +19,9 @@ enum class Until : uint8_t { program, shaders, plans, files };
 struct CompileOptions {
   Until until = Until::files;
   PlanOptions plan;
-  std::vector<std::string> fixed_features;  // `-D fog=off`: static features, each "NAME=VALUE"
-  size_t max_plans = 64;                    // feature configurations of one graph
-  std::string command;                      // as it shall stand in the banner of generated files
+  std::vector<std::string> fixed_features;         // `-D fog=off`: static features, each "NAME=VALUE"
+  size_t max_plans = 64;                           // feature configurations of one graph
+  std::string command;                             // as it shall stand in the banner of generated files
   std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
 };
 

@@ -55,8 +55,8 @@ size_t count(const dsl::Program& program, const Configuration& values, size_t li
 
 }  // namespace
 
-std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed,
-                                                 size_t limit, dsl::Diagnostics& diagnostics) {
+std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,
+                                                 dsl::Diagnostics& diagnostics) {
   const Configuration values = decided(program, graph, fixed, diagnostics);
   const size_t total = count(program, values, limit);
   if (total > limit) {

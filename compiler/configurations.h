@@ -13,8 +13,8 @@ namespace rg::compiler {
 // keep their initial value. `fixed` holds "NAME=VALUE" of features decided at build time. Reports unknown names and more than `limit` plans.
 //
 //   feature fog: bool   feature quality: { low, high }      fixed {"fog=on"}  ->  {1, 0} {1, 1}
-std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed,
-                                                 size_t limit, dsl::Diagnostics& diagnostics);
+std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,
+                                                 dsl::Diagnostics& diagnostics);
 
 // "fog=on quality=low"; empty where the program has no features.
 std::string configuration_name(const dsl::Program& program, const Configuration& configuration);

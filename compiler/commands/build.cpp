@@ -32,7 +32,8 @@ int build(const BuildOptions& options) {
   if (options.quiet) return exit_done;
   for (const std::string& name : written->changed) print(fmt::format("wrote   {}/{}\n", options.folder, name));
   for (const std::string& name : written->removed) print(fmt::format("removed {}/{}\n", options.folder, name));
-  print(fmt::format("{}: {} written, {} removed, {} unchanged\n", options.folder, written->changed.size(), written->removed.size(), written->unchanged));
+  print(fmt::format("{}: {} written, {} removed, {} unchanged\n", options.folder, written->changed.size(), written->removed.size(),
+                    written->unchanged));
   return exit_done;
 }
 

@@ -15,7 +15,10 @@ using Run = std::function<int()>;  // set while the words are read, called after
 // Options that change the plan.
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
-  const auto off = [&](const char* flag, bool& what, const char* help) { command.add_flag_callback(flag, [&what] { what = false; }, help); };
+  const auto off = [&](const char* flag, bool& what, const char* help) {
+    command.add_flag_callback(
+        flag, [&what] { what = false; }, help);
+  };
   off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
   off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
   off("--no-merge", options.plan.merge, "keep every rendering of its own");
@@ -43,7 +46,8 @@ void add_build(CLI::App& app, Run& run) {
   command->add_option("-o,--output", options.folder, "the folder of the generated files")->type_name("DIR")->capture_default_str();
   command->add_option("--depfile", options.depfile, "write what was read as a Makefile rule")->type_name("FILE");
   command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
-  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")->type_name("TEXT");
+  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
+      ->type_name("TEXT");
   command->add_flag("-q,--quiet", options.quiet, "say nothing on success");
   add_plan_options(*command.command, options.compile);
 }

@@ -81,7 +81,8 @@ PlanData with_places(PlanData plan, const dsl::Graph& graph, const dsl::SourceFi
 int emit_json(const compiler::CompileResult& result) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const compiler::CompiledGraph& graph : result.graphs)
-    for (const compiler::FramePlan& plan : graph.plans) all.push_back(plan_json(with_places(plan.plan, result.program.graphs[graph.graph], result.sources)));
+    for (const compiler::FramePlan& plan : graph.plans)
+      all.push_back(plan_json(with_places(plan.plan, result.program.graphs[graph.graph], result.sources)));
   print(all.dump(2) + "\n");
   return exit_done;
 }

@@ -85,7 +85,8 @@ std::string waited_for(const PlanData& plan, const std::string& name) {
       pending += barrier_group_text(plan, plan.groups[step.index], "    ");
       continue;
     }
-    if (names(name, plan.passes[step.index].name) && !pending.empty()) text += fmt::format("  barriers before {}\n{}", plan.passes[step.index].name, pending);
+    if (names(name, plan.passes[step.index].name) && !pending.empty())
+      text += fmt::format("  barriers before {}\n{}", plan.passes[step.index].name, pending);
     pending.clear();
   }
   return text;
@@ -96,7 +97,8 @@ std::string used_by(const dsl::Graph& graph, const std::string& name) {
   for (const dsl::Pass& pass : graph.passes)
     for (const dsl::Access& access : pass.accesses)
       if (names(name, graph.resources[access.resource].name))
-        text += fmt::format("  {} {} as {}{}\n", pass.name, mode_name(access.mode), role_name(access.role), access.age ? fmt::format(", {} frames ago", access.age) : "");
+        text += fmt::format("  {} {} as {}{}\n", pass.name, mode_name(access.mode), role_name(access.role),
+                            access.age ? fmt::format(", {} frames ago", access.age) : "");
   return text;
 }
 

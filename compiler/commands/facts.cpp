@@ -13,25 +13,47 @@ struct BitName {
   uint64_t bit;
   const char* name;
 };
-constexpr BitName kStages[] = {
-    {stage::draw_indirect, "DRAW_INDIRECT"}, {stage::index_input, "INDEX_INPUT"}, {stage::vertex_attribute_input, "VERTEX_ATTRIBUTE_INPUT"},
-    {stage::vertex_shader, "VERTEX_SHADER"}, {stage::tess_control_shader, "TESSELLATION_CONTROL_SHADER"},
-    {stage::tess_eval_shader, "TESSELLATION_EVALUATION_SHADER"}, {stage::geometry_shader, "GEOMETRY_SHADER"},
-    {stage::early_fragment_tests, "EARLY_FRAGMENT_TESTS"}, {stage::fragment_shader, "FRAGMENT_SHADER"},
-    {stage::late_fragment_tests, "LATE_FRAGMENT_TESTS"}, {stage::color_attachment_output, "COLOR_ATTACHMENT_OUTPUT"},
-    {stage::compute_shader, "COMPUTE_SHADER"}, {stage::all_transfer, "ALL_TRANSFER"}, {stage::copy, "COPY"}, {stage::resolve, "RESOLVE"},
-    {stage::blit, "BLIT"}, {stage::clear, "CLEAR"}, {stage::host, "HOST"}, {stage::bottom_of_pipe, "BOTTOM_OF_PIPE"},
-    {stage::all_graphics, "ALL_GRAPHICS"}, {stage::all_commands, "ALL_COMMANDS"}};
-constexpr BitName kAccesses[] = {
-    {access::indirect_command_read, "INDIRECT_COMMAND_READ"}, {access::index_read, "INDEX_READ"},
-    {access::vertex_attribute_read, "VERTEX_ATTRIBUTE_READ"}, {access::uniform_read, "UNIFORM_READ"},
-    {access::input_attachment_read, "INPUT_ATTACHMENT_READ"}, {access::shader_read, "SHADER_READ"}, {access::shader_write, "SHADER_WRITE"},
-    {access::shader_sampled_read, "SHADER_SAMPLED_READ"}, {access::shader_storage_read, "SHADER_STORAGE_READ"},
-    {access::shader_storage_write, "SHADER_STORAGE_WRITE"}, {access::color_attachment_read, "COLOR_ATTACHMENT_READ"},
-    {access::color_attachment_write, "COLOR_ATTACHMENT_WRITE"}, {access::depth_stencil_attachment_read, "DEPTH_STENCIL_ATTACHMENT_READ"},
-    {access::depth_stencil_attachment_write, "DEPTH_STENCIL_ATTACHMENT_WRITE"}, {access::transfer_read, "TRANSFER_READ"},
-    {access::transfer_write, "TRANSFER_WRITE"}, {access::host_read, "HOST_READ"}, {access::host_write, "HOST_WRITE"},
-    {access::memory_read, "MEMORY_READ"}, {access::memory_write, "MEMORY_WRITE"}};
+constexpr BitName kStages[] = {{stage::draw_indirect, "DRAW_INDIRECT"},
+                               {stage::index_input, "INDEX_INPUT"},
+                               {stage::vertex_attribute_input, "VERTEX_ATTRIBUTE_INPUT"},
+                               {stage::vertex_shader, "VERTEX_SHADER"},
+                               {stage::tess_control_shader, "TESSELLATION_CONTROL_SHADER"},
+                               {stage::tess_eval_shader, "TESSELLATION_EVALUATION_SHADER"},
+                               {stage::geometry_shader, "GEOMETRY_SHADER"},
+                               {stage::early_fragment_tests, "EARLY_FRAGMENT_TESTS"},
+                               {stage::fragment_shader, "FRAGMENT_SHADER"},
+                               {stage::late_fragment_tests, "LATE_FRAGMENT_TESTS"},
+                               {stage::color_attachment_output, "COLOR_ATTACHMENT_OUTPUT"},
+                               {stage::compute_shader, "COMPUTE_SHADER"},
+                               {stage::all_transfer, "ALL_TRANSFER"},
+                               {stage::copy, "COPY"},
+                               {stage::resolve, "RESOLVE"},
+                               {stage::blit, "BLIT"},
+                               {stage::clear, "CLEAR"},
+                               {stage::host, "HOST"},
+                               {stage::bottom_of_pipe, "BOTTOM_OF_PIPE"},
+                               {stage::all_graphics, "ALL_GRAPHICS"},
+                               {stage::all_commands, "ALL_COMMANDS"}};
+constexpr BitName kAccesses[] = {{access::indirect_command_read, "INDIRECT_COMMAND_READ"},
+                                 {access::index_read, "INDEX_READ"},
+                                 {access::vertex_attribute_read, "VERTEX_ATTRIBUTE_READ"},
+                                 {access::uniform_read, "UNIFORM_READ"},
+                                 {access::input_attachment_read, "INPUT_ATTACHMENT_READ"},
+                                 {access::shader_read, "SHADER_READ"},
+                                 {access::shader_write, "SHADER_WRITE"},
+                                 {access::shader_sampled_read, "SHADER_SAMPLED_READ"},
+                                 {access::shader_storage_read, "SHADER_STORAGE_READ"},
+                                 {access::shader_storage_write, "SHADER_STORAGE_WRITE"},
+                                 {access::color_attachment_read, "COLOR_ATTACHMENT_READ"},
+                                 {access::color_attachment_write, "COLOR_ATTACHMENT_WRITE"},
+                                 {access::depth_stencil_attachment_read, "DEPTH_STENCIL_ATTACHMENT_READ"},
+                                 {access::depth_stencil_attachment_write, "DEPTH_STENCIL_ATTACHMENT_WRITE"},
+                                 {access::transfer_read, "TRANSFER_READ"},
+                                 {access::transfer_write, "TRANSFER_WRITE"},
+                                 {access::host_read, "HOST_READ"},
+                                 {access::host_write, "HOST_WRITE"},
+                                 {access::memory_read, "MEMORY_READ"},
+                                 {access::memory_write, "MEMORY_WRITE"}};
 
 template <size_t n>
 std::string bit_names(const BitName (&rows)[n], uint64_t bits) {
@@ -69,21 +91,36 @@ std::string access_names(Accesses accesses) { return bit_names(kAccesses, access
 
 std::string layout_name(Layout layout) {
   switch (layout) {
-    case Layout::undefined: return "UNDEFINED";
-    case Layout::general: return "GENERAL";
-    case Layout::color_attachment: return "COLOR_ATTACHMENT";
-    case Layout::depth_stencil_attachment: return "DEPTH_STENCIL_ATTACHMENT";
-    case Layout::depth_stencil_read_only: return "DEPTH_STENCIL_READ_ONLY";
-    case Layout::shader_read_only: return "SHADER_READ_ONLY";
-    case Layout::transfer_src: return "TRANSFER_SRC";
-    case Layout::transfer_dst: return "TRANSFER_DST";
-    case Layout::depth_read_only_stencil_attachment: return "DEPTH_READ_ONLY_STENCIL_ATTACHMENT";
-    case Layout::depth_attachment_stencil_read_only: return "DEPTH_ATTACHMENT_STENCIL_READ_ONLY";
-    case Layout::depth_attachment: return "DEPTH_ATTACHMENT";
-    case Layout::depth_read_only: return "DEPTH_READ_ONLY";
-    case Layout::stencil_attachment: return "STENCIL_ATTACHMENT";
-    case Layout::stencil_read_only: return "STENCIL_READ_ONLY";
-    case Layout::present_src: return "PRESENT_SRC";
+    case Layout::undefined:
+      return "UNDEFINED";
+    case Layout::general:
+      return "GENERAL";
+    case Layout::color_attachment:
+      return "COLOR_ATTACHMENT";
+    case Layout::depth_stencil_attachment:
+      return "DEPTH_STENCIL_ATTACHMENT";
+    case Layout::depth_stencil_read_only:
+      return "DEPTH_STENCIL_READ_ONLY";
+    case Layout::shader_read_only:
+      return "SHADER_READ_ONLY";
+    case Layout::transfer_src:
+      return "TRANSFER_SRC";
+    case Layout::transfer_dst:
+      return "TRANSFER_DST";
+    case Layout::depth_read_only_stencil_attachment:
+      return "DEPTH_READ_ONLY_STENCIL_ATTACHMENT";
+    case Layout::depth_attachment_stencil_read_only:
+      return "DEPTH_ATTACHMENT_STENCIL_READ_ONLY";
+    case Layout::depth_attachment:
+      return "DEPTH_ATTACHMENT";
+    case Layout::depth_read_only:
+      return "DEPTH_READ_ONLY";
+    case Layout::stencil_attachment:
+      return "STENCIL_ATTACHMENT";
+    case Layout::stencil_read_only:
+      return "STENCIL_READ_ONLY";
+    case Layout::present_src:
+      return "PRESENT_SRC";
   }
   return "?";
 }
@@ -118,8 +155,7 @@ nlohmann::ordered_json to_json(const Facts& facts) {
   return {{"graph", facts.graph},
           {"variant", facts.variant},
           {"passes", {{"live", facts.passes_live}, {"culled", facts.passes_culled}}},
-          {"memory",
-           {{"heap_bytes", facts.heap_bytes}, {"unaliased_bytes", facts.unaliased_bytes}, {"lower_bound_bytes", facts.lower_bound_bytes}}},
+          {"memory", {{"heap_bytes", facts.heap_bytes}, {"unaliased_bytes", facts.unaliased_bytes}, {"lower_bound_bytes", facts.lower_bound_bytes}}},
           {"barriers", {{"calls", facts.barrier_calls}, {"barriers", facts.barriers}, {"all_commands", facts.all_commands}}},
           {"queues", {{"submits", facts.submits}, {"waits", facts.waits}}},
           {"variants", {{"plans", facts.plans}, {"shaders", facts.shaders}}},

@@ -14,10 +14,10 @@ struct Facts {
   std::string graph, variant;  // variant: "fog=on", empty where the program has no features
   size_t passes_live = 0, passes_culled = 0;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // transients at the initial extents, by the device profile
-  size_t barrier_calls = 0, barriers = 0;  // vkCmdPipelineBarrier2 with something in it; what they hold together
-  size_t all_commands = 0;                 // barriers naming ALL_COMMANDS, ALL_GRAPHICS, MEMORY_READ or MEMORY_WRITE
+  size_t barrier_calls = 0, barriers = 0;                               // vkCmdPipelineBarrier2 with something in it; what they hold together
+  size_t all_commands = 0;                                              // barriers naming ALL_COMMANDS, ALL_GRAPHICS, MEMORY_READ or MEMORY_WRITE
   size_t submits = 0, waits = 0;
-  size_t plans = 0, shaders = 0;           // of the graph: feature configurations, different SPIR-V modules
+  size_t plans = 0, shaders = 0;  // of the graph: feature configurations, different SPIR-V modules
   double plan_ms = 0;
   std::vector<std::pair<std::string, double>> phase_ms;
 };

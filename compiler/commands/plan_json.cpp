@@ -35,10 +35,19 @@ constexpr const char* kPassKinds[] = {"raster", "compute", "transfer", "host"};
 constexpr const char* kQueueKinds[] = {"graphics", "compute", "transfer"};
 constexpr const char* kLoadOps[] = {"load", "clear", "dont_care", "none"};
 constexpr const char* kStoreOps[] = {"store", "dont_care", "none"};
-constexpr const char* kWorkKinds[] = {"none", "host", "draw", "draw_indirect", "draw_indexed_indirect", "draw_indirect_count",
-                                      "draw_indexed_indirect_count", "dispatch", "dispatch_indirect", "transfers"};
-constexpr const char* kTransferKinds[] = {"copy_image", "copy_buffer", "copy_buffer_to_image", "copy_image_to_buffer", "blit", "clear_color",
-                                          "clear_depth_stencil", "fill", "update", "resolve"};
+constexpr const char* kWorkKinds[] = {"none",
+                                      "host",
+                                      "draw",
+                                      "draw_indirect",
+                                      "draw_indexed_indirect",
+                                      "draw_indirect_count",
+                                      "draw_indexed_indirect_count",
+                                      "dispatch",
+                                      "dispatch_indirect",
+                                      "transfers"};
+constexpr const char* kTransferKinds[] = {"copy_image", "copy_buffer", "copy_buffer_to_image", "copy_image_to_buffer",
+                                          "blit",       "clear_color", "clear_depth_stencil",  "fill",
+                                          "update",     "resolve"};
 
 struct PlanJson {
   const PlanData& plan;
@@ -50,7 +59,11 @@ struct PlanJson {
     return json;
   }
   Json range(const Range& range) const {
-    return {{"aspects", range.aspects}, {"mip", range.mip}, {"mips", count_or_all(range.mips)}, {"layer", range.layer}, {"layers", count_or_all(range.layers)}};
+    return {{"aspects", range.aspects},
+            {"mip", range.mip},
+            {"mips", count_or_all(range.mips)},
+            {"layer", range.layer},
+            {"layers", count_or_all(range.layers)}};
   }
   Json bytes(const Bytes& bytes) const {
     return {{"offset", bytes.offset == kNone ? "0" : expression_text(plan, bytes.offset)},
@@ -58,8 +71,11 @@ struct PlanJson {
   }
   template <class Barrier>
   Json scopes(const Barrier& barrier) const {
-    return {{"src_stages", stage_names(barrier.src_stages)}, {"src_accesses", access_names(barrier.src_accesses)},
-            {"dst_stages", stage_names(barrier.dst_stages)}, {"dst_accesses", access_names(barrier.dst_accesses)}, {"tag", tag_name(barrier.tag)}};
+    return {{"src_stages", stage_names(barrier.src_stages)},
+            {"src_accesses", access_names(barrier.src_accesses)},
+            {"dst_stages", stage_names(barrier.dst_stages)},
+            {"dst_accesses", access_names(barrier.dst_accesses)},
+            {"tag", tag_name(barrier.tag)}};
   }
 
   Json extent(const Extent& row) const {
@@ -95,7 +111,11 @@ struct PlanJson {
   }
 
   Json attachment(const Attachment& row) const {
-    Json json = {{"ref", ref(row.ref)}, {"range", range(row.range)}, {"layout", layout_name(row.layout)}, {"load", word(kLoadOps, row.load)}, {"store", word(kStoreOps, row.store)}};
+    Json json = {{"ref", ref(row.ref)},
+                 {"range", range(row.range)},
+                 {"layout", layout_name(row.layout)},
+                 {"load", word(kLoadOps, row.load)},
+                 {"store", word(kStoreOps, row.store)}};
     if (row.resolve.resource != kNone) json["resolve"] = ref(row.resolve);
     return json;
   }
@@ -112,20 +132,22 @@ struct PlanJson {
   }
 
   Json binding(const Binding& row) const {
-    return {{"binding", row.binding}, {"type", static_cast<uint32_t>(row.type)}, {"stages", row.stages}, {"ref", ref(row.ref)},
+    return {{"binding", row.binding},
+            {"type", static_cast<uint32_t>(row.type)},
+            {"stages", row.stages},
+            {"ref", ref(row.ref)},
             {"sampler", row.sampler == kNone ? Json(nullptr) : Json(plan.samplers[row.sampler].name)},
             {"params", row.params == kNone ? Json(nullptr) : Json(plan.params[row.params].name)}};
   }
 
-  Json transfer(const Transfer& row) const {
-    return {{"kind", word(kTransferKinds, row.kind)}, {"src", ref(row.src)}, {"dst", ref(row.dst)}};
-  }
+  Json transfer(const Transfer& row) const { return {{"kind", word(kTransferKinds, row.kind)}, {"src", ref(row.src)}, {"dst", ref(row.dst)}}; }
 
   Json work(const Work& row) const {
     Json json = {{"kind", word(kWorkKinds, row.kind)}};
     if (row.x != kNone) json["count"] = {expression_text(plan, row.x), expression_text(plan, row.y), expression_text(plan, row.z)};
     if (row.arguments.resource != kNone) json["arguments"] = ref(row.arguments);
-    if (row.transfer_count) json["transfers"] = slice(plan.transfers, row.first_transfer, row.transfer_count, [&](const Transfer& t) { return transfer(t); });
+    if (row.transfer_count)
+      json["transfers"] = slice(plan.transfers, row.first_transfer, row.transfer_count, [&](const Transfer& t) { return transfer(t); });
     return json;
   }
 
@@ -148,7 +170,10 @@ struct PlanJson {
 
   Json group(const BarrierGroup& row) const {
     const auto image = [&](const ImageBarrier& barrier) {
-      Json json = {{"ref", ref(barrier.image)}, {"range", range(barrier.range)}, {"old_layout", layout_name(barrier.old_layout)}, {"new_layout", layout_name(barrier.new_layout)}};
+      Json json = {{"ref", ref(barrier.image)},
+                   {"range", range(barrier.range)},
+                   {"old_layout", layout_name(barrier.old_layout)},
+                   {"new_layout", layout_name(barrier.new_layout)}};
       json.update(scopes(barrier));
       return json;
     };
@@ -157,9 +182,10 @@ struct PlanJson {
       json.update(scopes(barrier));
       return json;
     };
-    return {{"memory", slice(plan.memory_barriers, row.first_memory, row.memory_count, [&](const MemoryBarrier& barrier) { return scopes(barrier); })},
-            {"images", slice(plan.image_barriers, row.first_image, row.image_count, image)},
-            {"buffers", slice(plan.buffer_barriers, row.first_buffer, row.buffer_count, buffer)}};
+    return {
+        {"memory", slice(plan.memory_barriers, row.first_memory, row.memory_count, [&](const MemoryBarrier& barrier) { return scopes(barrier); })},
+        {"images", slice(plan.image_barriers, row.first_image, row.image_count, image)},
+        {"buffers", slice(plan.buffer_barriers, row.first_buffer, row.buffer_count, buffer)}};
   }
 
   Json step(const Step& row) const {
@@ -177,8 +203,12 @@ struct PlanJson {
   }
 
   Json boundary(const Boundary& row) const {
-    return {{"ref", ref(row.ref)}, {"range", range(row.range)}, {"stages", stage_names(row.stages)}, {"accesses", access_names(row.accesses)},
-            {"layout", layout_name(row.layout)}, {"discard", row.discard}};
+    return {{"ref", ref(row.ref)},
+            {"range", range(row.range)},
+            {"stages", stage_names(row.stages)},
+            {"accesses", access_names(row.accesses)},
+            {"layout", layout_name(row.layout)},
+            {"discard", row.discard}};
   }
 
   Json alias(const AliasPair& row) const {
@@ -196,16 +226,26 @@ std::string expression_text(const PlanData& plan, Index expr) {
   if (expr == kNone) return "1";
   const Expr& e = plan.exprs[expr];
   switch (e.op) {
-    case ExprOp::constant: return std::to_string(e.value);
-    case ExprOp::extent: return fmt::format("{}.{}", plan.extents[static_cast<size_t>(e.value / 3)].name, "xyz"[e.value % 3]);
-    case ExprOp::add: return binary(plan, e, "({} + {})");
-    case ExprOp::sub: return binary(plan, e, "({} - {})");
-    case ExprOp::mul: return binary(plan, e, "({} * {})");
-    case ExprOp::floor_div: return binary(plan, e, "({} / {})");
-    case ExprOp::ceil_div: return binary(plan, e, "ceil({} / {})");
-    case ExprOp::min: return binary(plan, e, "min({}, {})");
-    case ExprOp::max: return binary(plan, e, "max({}, {})");
-    case ExprOp::mip: return binary(plan, e, "mip({}, {})");
+    case ExprOp::constant:
+      return std::to_string(e.value);
+    case ExprOp::extent:
+      return fmt::format("{}.{}", plan.extents[static_cast<size_t>(e.value / 3)].name, "xyz"[e.value % 3]);
+    case ExprOp::add:
+      return binary(plan, e, "({} + {})");
+    case ExprOp::sub:
+      return binary(plan, e, "({} - {})");
+    case ExprOp::mul:
+      return binary(plan, e, "({} * {})");
+    case ExprOp::floor_div:
+      return binary(plan, e, "({} / {})");
+    case ExprOp::ceil_div:
+      return binary(plan, e, "ceil({} / {})");
+    case ExprOp::min:
+      return binary(plan, e, "min({}, {})");
+    case ExprOp::max:
+      return binary(plan, e, "max({}, {})");
+    case ExprOp::mip:
+      return binary(plan, e, "mip({}, {})");
   }
   return "?";
 }
@@ -224,7 +264,11 @@ Json plan_json(const PlanData& plan) {
           {"entry", all(plan.entry, [&](const Boundary& row) { return json.boundary(row); })},
           {"exit", all(plan.exit, [&](const Boundary& row) { return json.boundary(row); })},
           {"alias_pairs", all(plan.alias_pairs, [&](const AliasPair& row) { return json.alias(row); })},
-          {"culled", all(plan.culled, [](const Culled& row) { return Json{{"pass", row.pass}, {"reason", row.reason}}; })},
+          {"alias_by_lifetime", plan.alias_by_lifetime},
+          {"culled", all(plan.culled,
+                         [](const Culled& row) {
+                           return Json{{"pass", row.pass}, {"reason", row.reason}};
+                         })},
           {"heap_bytes", plan.estimated_heap_bytes}};
 }
 

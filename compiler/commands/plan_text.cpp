@@ -172,8 +172,7 @@ std::string resource_kind_text(const dsl::Program& program, const dsl::Resource&
   const auto value = [&](dsl::ExprId id) { return id.valid() ? dsl::evaluate(program, id, extents) : 1; };
   constexpr const char* lifetimes[] = {"transient", "history", "persistent", "imported", "readback"};
   const char* lifetime = lifetimes[static_cast<size_t>(resource.lifetime)];
-  if (resource.kind == dsl::ResourceKind::buffer)
-    return fmt::format("{} buffer of {} x {} bytes", lifetime, value(resource.count), resource.stride);
+  if (resource.kind == dsl::ResourceKind::buffer) return fmt::format("{} buffer of {} x {} bytes", lifetime, value(resource.count), resource.stride);
   std::string size = fmt::format("{}x{}", value(resource.width), value(resource.height));
   if (resource.depth.valid() && resource.dimension == dsl::Dimension::d3) size += fmt::format("x{}", value(resource.depth));
   if (resource.layers > 1) size += fmt::format(" layers {}", resource.layers);
@@ -187,9 +186,9 @@ std::string mode_name(dsl::Mode mode) {
 }
 
 std::string role_name(dsl::Role role) {
-  constexpr const char* names[] = {"sampled", "storage", "uniform", "vertex", "index", "indirect", "color", "depth", "depth_readonly", "stencil",
-                                   "input", "resolve_src", "resolve_dst", "copy_src", "copy_dst", "blit_src", "blit_dst", "clear_dst",
-                                   "fill_dst", "update_dst", "host_read", "host_write", "present", "undefined"};
+  constexpr const char* names[] = {"sampled",        "storage",   "uniform",  "vertex",      "index",       "indirect",   "color",    "depth",
+                                   "depth_readonly", "stencil",   "input",    "resolve_src", "resolve_dst", "copy_src",   "copy_dst", "blit_src",
+                                   "blit_dst",       "clear_dst", "fill_dst", "update_dst",  "host_read",   "host_write", "present",  "undefined"};
   return names[static_cast<size_t>(role)];
 }
 

@@ -17,8 +17,8 @@ std::string subject(const compiler::CompileResult& result, const compiler::Compi
 bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
   const std::string name = subject(result, graph, plan);
   show_progress("proving " + name);
-  const auto findings = verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass,
-                                       plan.plan.program_resource);
+  const auto findings =
+      verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource);
   show_progress({});
   for (const verify::Finding& finding : findings) print(fmt::format("{}: {}: {}\n", name, verify::name(finding.hazard), finding.text));
   if (findings.empty()) print(fmt::format("{}: proved\n", name));

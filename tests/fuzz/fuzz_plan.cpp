@@ -10,8 +10,8 @@ namespace {
 void prove(const rg::compiler::CompileResult& result) {
   for (const rg::compiler::CompiledGraph& graph : result.graphs) {
     for (const rg::compiler::FramePlan& plan : graph.plans) {
-      const auto findings = rg::verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass,
-                                               plan.plan.program_resource);
+      const auto findings =
+          rg::verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource);
       for (const rg::verify::Finding& finding : findings) std::fprintf(stderr, "%s\n", finding.text.c_str());
       RG_CHECK(findings.empty(), "the plan is proved");
     }

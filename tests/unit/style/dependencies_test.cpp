@@ -15,9 +15,7 @@ bool starts_with_any(const std::string& text, std::initializer_list<const char*>
   return std::any_of(prefixes.begin(), prefixes.end(), [&](const char* prefix) { return text.starts_with(prefix); });
 }
 
-bool is_any(const std::string& text, std::initializer_list<const char*> names) {
-  return std::find(names.begin(), names.end(), text) != names.end();
-}
+bool is_any(const std::string& text, std::initializer_list<const char*> names) { return std::find(names.begin(), names.end(), text) != names.end(); }
 
 std::string violations(const std::vector<File>& files, const Allowed& allowed) {
   std::string text;
@@ -63,8 +61,9 @@ TEST(Dependencies, CheckerSharesOnlyTheSchema) {
   ASSERT_GE(files.size(), 1u);
   EXPECT_EQ(violations(files,
                        [](const std::string& include) {
-                         return include.starts_with("compiler/verify/") || is_any(include, {"dsl/program.h", "dsl/ids.h", "dsl/source.h", "dsl/check_macro.h",
-                                                                                            "compiler/plan_data.h", "runtime/plan.h"});
+                         return include.starts_with("compiler/verify/") ||
+                                is_any(include,
+                                       {"dsl/program.h", "dsl/ids.h", "dsl/source.h", "dsl/check_macro.h", "compiler/plan_data.h", "runtime/plan.h"});
                        }),
             "");
 }
@@ -72,7 +71,10 @@ TEST(Dependencies, CheckerSharesOnlyTheSchema) {
 TEST(Dependencies, OnlyTheDriverAndTheCommandsKnowAllPhases) {
   auto files = compiler_files(false);
   std::erase_if(files, [](const File& file) { return starts_with_any(file.path, {"compiler/commands/", "compiler/main.cpp", "compiler/compile."}); });
-  EXPECT_EQ(violations(files, [](const std::string& include) { return !starts_with_any(include, {"compiler/verify/", "compiler/commands/", "compiler/compile.h"}); }),
+  EXPECT_EQ(violations(files,
+                       [](const std::string& include) {
+                         return !starts_with_any(include, {"compiler/verify/", "compiler/commands/", "compiler/compile.h"});
+                       }),
             "");
 }
 
@@ -83,7 +85,11 @@ TEST(Dependencies, RuntimeKnowsNoCompiler) {
 }
 
 TEST(Dependencies, GeneratedCodeNeedsTheRuntimeAlone) {
-  EXPECT_EQ(violations(cpp_below("generated"), [](const std::string& include) { return !starts_with_any(include, {"dsl/", "compiler/", "examples/"}); }), "");
+  EXPECT_EQ(violations(cpp_below("generated"),
+                       [](const std::string& include) {
+                         return !starts_with_any(include, {"dsl/", "compiler/", "examples/"});
+                       }),
+            "");
 }
 
 TEST(Dependencies, OnlyTheRuntimeIncludesVulkan) {
