@@ -19,7 +19,7 @@ int emit_syntax(const std::string& path, bool tree) {
   std::string why;
   const auto text = read_file(path, why);
   if (!text) {
-    diagnostics.report(dsl::DiagnosticKind::InputNotAFile, {}, {path, why});
+    diagnostics.report(dsl::DiagnosticKind::FileNotReadable, {}, {path, why});
     return finish(diagnostics, sources);
   }
   const dsl::FileId file = sources.add(dsl::SourceFile(path, *text));

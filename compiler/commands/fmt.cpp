@@ -12,7 +12,7 @@ void format_file(const std::string& path, bool check, dsl::SourceFiles& sources,
   std::string why;
   const auto text = read_file(path, why);
   if (!text) {
-    diagnostics.report(dsl::DiagnosticKind::InputNotAFile, {}, {path, why});
+    diagnostics.report(dsl::DiagnosticKind::FileNotReadable, {}, {path, why});
     return;
   }
   const dsl::FileId file = sources.add(dsl::SourceFile(path, *text));

@@ -1,0 +1,2 @@
+module small
+const TILE = 8
