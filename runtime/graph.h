@@ -80,6 +80,7 @@ struct Dump {  // contents of one resource after one pass, tightly packed, mip 0
 
 class GraphInstance {
  public:
+  // The device and the tables that `plan` points to outlive the instance; the device may be moved.
   static Result<GraphInstance> create(Device& device, const Plan& plan, const GraphOptions& options);
   GraphInstance(GraphInstance&&) noexcept;
   GraphInstance& operator=(GraphInstance&&) noexcept;
