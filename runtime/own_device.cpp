@@ -16,6 +16,8 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kLoadOpNone = "VK_EXT_load_store_op_none";
 
+Error no_driver() { return Error{ErrorCode::unsupported, "no Vulkan device; the package `mesa-vulkan-drivers` brings one that runs on the CPU"}; }
+
 Result<PFN_vkGetInstanceProcAddr> open_loader(Device::State& state) {
   // RTLD_NODELETE: drivers leave threads and exit handlers behind.
   state.library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
@@ -143,7 +145,9 @@ Status create_instance(Device::State& state, const DeviceOptions& options, PFN_v
   info.ppEnabledLayerNames = &kValidationLayer;
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
-  RG_TRY(check(state.vk.CreateInstance(&info, nullptr, &state.instance), "vkCreateInstance", {}));
+  const VkResult result = state.vk.CreateInstance(&info, nullptr, &state.instance);
+  if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return no_driver();
+  RG_TRY(check(result, "vkCreateInstance", {}));
   RG_TRY(load_instance(state, get));
   return options.validate ? create_messenger(state, chain) : Status(Done{});
 }
@@ -227,7 +231,7 @@ Status choose_physical_device(Device::State& state, int index) {
     if (description.usable && (state.physical == VK_NULL_HANDLE || rank(state, physical) > rank(state, state.physical))) state.physical = physical;
   }
   if (state.physical != VK_NULL_HANDLE) return Done{};
-  if (devices.empty()) return Error{ErrorCode::unsupported, "no Vulkan device; the package `mesa-vulkan-drivers` brings one that runs on the CPU"};
+  if (devices.empty()) return no_driver();
   return Error{ErrorCode::unsupported, "no suitable Vulkan device" + reasons};
 }
 

@@ -44,6 +44,37 @@ TEST_F(Engine, ListedDevicesCanBeChosenByIndex) {
   EXPECT_EQ(none.error().message, "there is no device " + std::to_string(devices.size()) + ": found " + std::to_string(devices.size()));
 }
 
+class ScopedVariable {
+ public:
+  ScopedVariable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~ScopedVariable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST_F(Engine, WithoutADriverThereIsAWayOut) {
+  const ScopedVariable no_drivers("VK_DRIVER_FILES", "/nonexistent");
+  const Result<Device> none = Device::create({});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().code, ErrorCode::unsupported);
+  EXPECT_EQ(none.error().message, "no Vulkan device; the package `mesa-vulkan-drivers` brings one that runs on the CPU");
+  EXPECT_TRUE(list_devices().empty());
+}
+
+TEST_F(Engine, WithoutTheLayerValidationIsAnError) {
+  const ScopedVariable no_layers("VK_LAYER_PATH", "/nonexistent");
+  DeviceOptions options;
+  options.validate = true;
+  const Result<Device> none = Device::create(options);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "the validation layer VK_LAYER_KHRONOS_validation is not installed; install the package `vulkan-validationlayers`");
+}
+
 TEST_F(Engine, MissingExtensionsAreNamed) {
   RG_OPEN_DEVICE(device, false);
   EXPECT_FALSE(device.name().empty());
