@@ -95,11 +95,9 @@ using Found = std::vector<std::vector<std::vector<Version>>>;
 
 void run_program_pass(Comparison& c, uint32_t pass, Memory& memory, Found& found) {
   const std::vector<Use>& uses = c.program_uses[pass];
-  found[pass].resize(uses.size());
-  for (size_t u = 0; u < uses.size(); ++u) {
-    found[pass][u].clear();
-    for (const uint32_t cell : uses[u].cells) found[pass][u].push_back(memory.versions[c.physical(uses[u].resource, uses[u].age, cell)]);
-  }
+  for (size_t u = 0; u < uses.size(); ++u)
+    for (size_t i = 0; i < uses[u].cells.size(); ++i)
+      found[pass][u][i] = memory.versions[c.physical(uses[u].resource, uses[u].age, uses[u].cells[i])];
   for (const Use& use : uses)
     if (use.writes)
       for (const uint32_t cell : use.cells) {
@@ -221,8 +219,16 @@ void compare_end(Comparison& c, const Memory& program, const Memory& plan) {
   }
 }
 
-void run_frame(Comparison& c, Memory& program, Memory& plan) {
-  Found found(c.program_uses.size());
+Found room_for(const std::vector<std::vector<Use>>& uses) {
+  Found found;
+  for (const std::vector<Use>& pass : uses) {
+    found.emplace_back();
+    for (const Use& use : pass) found.back().emplace_back(use.cells.size());
+  }
+  return found;
+}
+
+void run_frame(Comparison& c, Memory& program, Memory& plan, Found& found) {
   begin_program_frame(c, program);
   begin_frame(c, program);
   begin_frame(c, plan);
@@ -282,16 +288,22 @@ void add_mip_outcomes(const Model& model, std::vector<Outcome>& outcomes) {
   for (const dsl::Pass& pass : model.input->graph.passes)
     for (const dsl::MipLimit& limit : pass.mip_limits) limited[limit.image.value] = std::max(limited[limit.image.value], limit.mip);
   if (limited.empty()) return;
-  Outcome smallest = uniform(model, true);
-  for (const auto& [image, mip] : limited) {
-    smallest.mips[image] = 1;
+  uint32_t longest = 0;
+  for (const auto& [image, mip] : limited) longest = std::max(longest, mip);
+  // Images of one extent lose their mips together.
+  for (uint32_t mips = 1; mips <= longest; ++mips) {
+    Outcome outcome = uniform(model, true);
+    for (const auto& [image, mip] : limited) outcome.mips[image] = std::min(outcome.mips[image], mips);
+    outcomes.push_back(outcome);
+  }
+  constexpr size_t kEachAlone = 16;
+  if (limited.size() > kEachAlone) return;
+  for (const auto& [image, mip] : limited)
     for (uint32_t mips = 1; mips <= mip; ++mips) {
       Outcome outcome = uniform(model, true);
       outcome.mips[image] = mips;
       outcomes.push_back(outcome);
     }
-  }
-  outcomes.push_back(smallest);
 }
 
 std::vector<std::vector<Use>> make_program_uses(const Model& model, const std::vector<int64_t>& extents) {
@@ -319,12 +331,13 @@ void replay_contents(const Model& model, const std::vector<int64_t>& extents, Re
   add_condition_outcomes(model, outcomes);
   add_mip_outcomes(model, outcomes);
   const std::vector<std::vector<Use>> uses = make_program_uses(model, extents);
+  Found found = room_for(uses);
   for (const Outcome& outcome : outcomes) {
     Comparison comparison{model, report, outcome, uses, 0};
     Memory program, plan;
     begin_life(comparison, program);
     begin_life(comparison, plan);
-    for (; comparison.frame < model.history + 3 && !report.full(); ++comparison.frame) run_frame(comparison, program, plan);
+    for (; comparison.frame < model.history + 3 && !report.full(); ++comparison.frame) run_frame(comparison, program, plan, found);
     if (report.full()) return;
   }
 }

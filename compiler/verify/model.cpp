@@ -95,8 +95,16 @@ void add_scope(Model& model, Scope scope) {
   GroupNode& group = model.groups.back();
   group.src_earlier |= scope.src_earlier;
   group.dst_later |= scope.dst_later;
-  group.has_memory = group.has_memory || scope.kind == ScopeKind::memory;
-  group.scopes.push_back(static_cast<uint32_t>(model.scopes.size()));
+  const auto id = static_cast<uint32_t>(model.scopes.size());
+  if (scope.kind == ScopeKind::memory) group.memory.push_back(id);
+  group.scopes.push_back(id);
+  const auto same = std::find_if(group.classes.begin(), group.classes.end(), [&](const ExecutionClass& other) {
+    return model.scopes[other.scope].raw_src == scope.raw_src && model.scopes[other.scope].raw_dst == scope.raw_dst;
+  });
+  if (same != group.classes.end())
+    same->sole = false;
+  else if (scope.src != 0 && scope.dst != 0)
+    group.classes.push_back({id, true});
   model.scopes.push_back(std::move(scope));
 }
 

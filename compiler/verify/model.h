@@ -58,11 +58,18 @@ struct Scope {
   BarrierTag tag = BarrierTag::hazard;
 };
 
+// Barriers of one group with the same stages order the same execution: none of several is needed for that.
+struct ExecutionClass {
+  uint32_t scope = 0;
+  bool sole = true;
+};
+
 struct GroupNode {
   std::vector<uint32_t> scopes;
+  std::vector<ExecutionClass> classes;
   StageSet src_earlier = 0, dst_later = 0;  // of all
-  bool has_memory = false;
-  std::vector<uint32_t> handed_over;  // plan's acquires of buffers that a pair lets take over memory here
+  std::vector<uint32_t> memory;             // scopes of kind memory
+  std::vector<uint32_t> handed_over;        // plan's acquires of buffers that a pair lets take over memory here
 };
 
 struct StepNode {

@@ -96,7 +96,7 @@ void check_after_writes(Replay& replay, const Point& at, const CellState& state,
     // Readers in between saw the write, and this access waits for them: that orders it, too.
     if (writes && write.read_since) continue;
     if (write.visible[stage] & access_bit(access))
-      replay.require(*proof_of_visible(write, stage, access));
+      replay.require(proof_of_visible(write, stage, access));
     else if (needed)
       report_write(replay, at, write, stage, access);
   }
@@ -106,7 +106,7 @@ void check_after_reads(Replay& replay, const Point& at, const CellState& state, 
   for (const ReadRecord& read : state.reads) {
     if (order != 0 && read.order == order) continue;
     if (read.reach.stages & stage_bit(stage))
-      replay.require(*proof_of_reach(read.reach, stage));
+      replay.require(proof_of_reach(read, stage));
     else
       report_read(replay, at, read, stage, access);
   }
@@ -335,7 +335,7 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
   const CellState& state = replay.cells[replay.physical(r, 0, c)];
   for (const WriteRecord& write : state.writes) {
     if (write.visible[kHost] & access_bit(kHostRead))
-      replay.require(*proof_of_visible(write, kHost, kHostRead));
+      replay.require(proof_of_visible(write, kHost, kHostRead));
     else
       replay.report.add(
           {Hazard::read_after_write, replay.model.resource(r).name, pass_or_empty(replay, write.pass), "",
@@ -344,20 +344,21 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
 }
 
 // What the exit state promises rests on these proofs.
-void require_reach(Replay& replay, const Reach& reach, StageSet stages) {
+template <class Record>
+void require_reach(Replay& replay, const Record& record, StageSet stages) {
   for (uint32_t s = 0; s < kStageCount; ++s)
-    if (reach.stages & stages & stage_bit(s)) replay.require(*proof_of_reach(reach, s));
+    if (record.reach.stages & stages & stage_bit(s)) replay.require(proof_of_reach(record, s));
 }
 
 void require_all(Replay& replay, const CellState& state, const Pending& pending) {
   for (const ReadRecord& read : state.reads)
-    if (!(with_earlier(pending.stages) & stage_bit(read.stage))) require_reach(replay, read.reach, with_earlier(pending.stages));
+    if (!(with_earlier(pending.stages) & stage_bit(read.stage))) require_reach(replay, read, with_earlier(pending.stages));
   for (const WriteRecord& write : state.writes) {
     if (!write.available) continue;
-    require_reach(replay, write.reach, pending.stages);
+    require_reach(replay, write, pending.stages);
     for (uint32_t s = 0; s < kStageCount && !pending.has_writes(); ++s)
       for (uint32_t a = 0; a < kAccessCount; ++a)
-        if (pending.accesses[s] & kAllReads & access_bit(a)) replay.require(*proof_of_visible(write, s, a));
+        if (pending.accesses[s] & kAllReads & access_bit(a)) replay.require(proof_of_visible(write, s, a));
   }
   if (state.layout_scope != kNone && pending.layout != Layout::undefined) replay.require({atom_of(state.layout_scope, AtomField::whole)});
 }
@@ -392,7 +393,7 @@ void check_after_state(Replay& replay, uint32_t r, uint32_t c) {
   for (const WriteRecord& write : state.writes)
     for (uint32_t s = 0; s < kStageCount; ++s)
       for (uint32_t a = 0; a < kAccessCount; ++a)
-        if (wanted.accesses[s] & access_bit(a)) replay.require(*proof_of_visible(write, s, a));
+        if (wanted.accesses[s] & access_bit(a)) replay.require(proof_of_visible(write, s, a));
   if (state.layout_scope != kNone) replay.require({atom_of(state.layout_scope, AtomField::whole)});
   if (partition.shape.image && state.layout != wanted.layout && state.layout != Layout::undefined)
     why = "layout is " + layout_name(state.layout) + ", not " + layout_name(wanted.layout);

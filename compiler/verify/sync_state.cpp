@@ -18,6 +18,12 @@ void intersect(Proof& a, const Proof& b) {
   a = std::move(result);
 }
 
+void subtract(Proof& a, const Proof& b) {
+  Proof result;
+  std::set_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+  a = std::move(result);
+}
+
 // Intersection of alternative derivations; none yet means the fact does not hold.
 struct Alternatives {
   std::optional<Proof> proof;
@@ -40,6 +46,17 @@ Proof access_atom(uint32_t scope, AtomField field, Accesses raw, uint32_t access
 
 const Proof kNoProof;
 
+const Proof& relative_proof(const Reach& reach, uint32_t stage) {
+  for (const auto& [s, proof] : reach.proofs)
+    if (s == stage) return proof;
+  return kNoProof;
+}
+const Proof& relative_proof(const WriteRecord& write, uint32_t stage, uint32_t access) {
+  for (const VisibleTo& v : write.proofs)
+    if (v.stage == stage && v.access == access) return v.proof;
+  return kNoProof;
+}
+
 // The source stages of `scope` that meet `stage`, as alternatives on top of `premise`.
 void add_meeting_sources(const Scope& scope, uint32_t scope_id, uint32_t stage, const Proof& premise, Alternatives& result) {
   for (uint32_t s = 0; s < kStageCount; ++s)
@@ -49,7 +66,7 @@ void add_meeting_sources(const Scope& scope, uint32_t scope_id, uint32_t stage, 
 
 void add_chained_sources(const Scope& scope, uint32_t scope_id, const Reach& reach, Alternatives& result) {
   for (uint32_t d = 0; d < kStageCount; ++d)
-    if (reach.stages & scope.src_earlier & stage_bit(d)) add_meeting_sources(scope, scope_id, d, *proof_of_reach(reach, d), result);
+    if (reach.stages & scope.src_earlier & stage_bit(d)) add_meeting_sources(scope, scope_id, d, relative_proof(reach, d), result);
 }
 
 // A derivation waiting to be merged once all barriers of a group have seen the state before the group.
@@ -128,30 +145,55 @@ struct Updates {
   std::vector<NewVisible> new_visible;
 };
 
-// `memory`: the scope's memory dependency covers the cell.
-void see(const History& history, uint32_t scope_id, const WriteRecord& write, bool memory, Updates& updates) {
-  const Scope& scope = history.model.scopes[scope_id];
-  const bool first = memory && makes_available(scope, write);
-  const bool chained = write.available && (write.reach.stages & scope.src_earlier);
-  if (!first && !chained) return;
-  updates.available = updates.available || first;
+// Execution after what `reach` and `own` cover goes on through the class.
+void chain(const History& history, const ExecutionClass& execution, const Reach& reach, StageSet own, Updates& updates) {
+  const Scope& scope = history.model.scopes[execution.scope];
+  if (!((reach.stages | own) & scope.src_earlier)) return;
   updates.reach |= scope.dst_later;
-  if (memory)
-    for (uint32_t d = 0; d < kStageCount; ++d)
-      if (scope.dst & stage_bit(d)) updates.visible[d] |= scope.dst_accesses & supported(d);
+  if (!history.proofs || !(scope.dst_later & ~reach.settled)) return;
+  Alternatives sources;
+  for (uint32_t s = 0; s < kStageCount && own != 0; ++s)
+    if (own & stage_bit(s)) add_meeting_sources(scope, execution.scope, s, kNoProof, sources);
+  add_chained_sources(scope, execution.scope, reach, sources);
+  if (execution.sole) return add_reach(scope, execution.scope, *sources.proof, reach.settled, updates.new_reach);
+  std::erase_if(*sources.proof, [&](Atom atom) { return scope_of(atom) == execution.scope; });
+  for (uint32_t d = 0; d < kStageCount; ++d)
+    if (scope.dst_later & ~reach.settled & stage_bit(d)) updates.new_reach.push_back({d, *sources.proof});
+}
+
+Proof availability_proof(const Scope& scope, uint32_t scope_id, const WriteRecord& write) {
+  return unite(stage_atom(scope_id, AtomField::src_stage, scope.raw_src, write.stage),
+               access_atom(scope_id, AtomField::src_access, scope.raw_src_accesses, write.access));
+}
+
+// The memory dependency of a scope that covers the cell. `source`: how the write comes before it.
+void see(const History& history, uint32_t scope_id, const WriteRecord& write, const Alternatives& source, Updates& updates) {
+  if (!source.proof) return;
+  const Scope& scope = history.model.scopes[scope_id];
+  updates.reach |= scope.dst_later;
+  for (uint32_t d = 0; d < kStageCount; ++d)
+    if (scope.dst & stage_bit(d)) updates.visible[d] |= scope.dst_accesses & supported(d);
   if (!history.proofs) return;
-  Proof proof;
-  in_source(scope, scope_id, write, proof);
-  if (!memory) {
-    if (scope.dst_later & ~write.reach.settled) {
-      Alternatives chain;
-      add_chained_sources(scope, scope_id, write.reach, chain);
-      add_reach(scope, scope_id, *chain.proof, write.reach.settled, updates.new_reach);
-    }
-    return;
-  }
-  add_reach(scope, scope_id, proof, write.reach.settled, updates.new_reach);
-  add_visible(scope, scope_id, proof, updates.new_visible);
+  add_reach(scope, scope_id, *source.proof, write.reach.settled, updates.new_reach);
+  add_visible(scope, scope_id, *source.proof, updates.new_visible);
+}
+
+// Proofs no longer share a root: there is a second beginning.
+void forget_root(Reach& reach) {
+  for (auto& [stage, proof] : reach.proofs) proof = unite(proof, reach.root);
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (reach.settled & stage_bit(s)) reach.proofs.emplace_back(s, reach.root);
+  reach.settled = 0;
+  reach.root.clear();
+}
+void forget_root(WriteRecord& write) {
+  if (write.reach.root.empty()) return;
+  std::vector<VisibleTo> proofs;
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    for (uint32_t a = 0; a < kAccessCount; ++a)
+      if (write.visible[s] & access_bit(a)) proofs.push_back({s, a, proof_of_visible(write, s, a)});
+  write.proofs = std::move(proofs);
+  forget_root(write.reach);
 }
 
 void commit(const History& history, const Updates& updates, WriteRecord& write) {
@@ -167,65 +209,103 @@ void commit(const History& history, const Updates& updates, WriteRecord& write) 
 
 bool is_local(const std::vector<uint32_t>& local, uint32_t scope) { return std::find(local.begin(), local.end(), scope) != local.end(); }
 
-void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
-  Updates updates;
-  for (const uint32_t id : group.scopes) see(history, id, write, history.model.scopes[id].kind == ScopeKind::memory || is_local(local, id), updates);
-  commit(history, updates, write);
-}
-
 // A group without effects on the record can be skipped without a look at its barriers.
 bool concerns(const GroupNode& group, const Reach& reach, StageSet own) {
-  if (!((reach.stages | own) & group.src_earlier)) return false;
-  return (group.dst_later & ~reach.settled) != 0;
+  return ((reach.stages | own) & group.src_earlier) && (group.dst_later & ~reach.settled) != 0;
+}
+
+// What the root already says.
+void drop_root(Reach& reach) {
+  for (auto& [stage, proof] : reach.proofs) subtract(proof, reach.root);
+  for (const auto& [stage, proof] : reach.proofs)
+    if (proof.empty()) reach.settled |= stage_bit(stage);
+  std::erase_if(reach.proofs, [](const auto& entry) { return entry.second.empty(); });
+}
+void drop_root(WriteRecord& write) {
+  drop_root(write.reach);
+  for (VisibleTo& v : write.proofs) subtract(v.proof, write.reach.root);
+  std::erase_if(write.proofs, [](const VisibleTo& v) { return v.proof.empty(); });
+}
+
+// Where one barrier of the group alone makes the write available for the first time, all later proofs grow from it.
+bool is_rooted(const History& history, const std::vector<uint32_t>& covering, WriteRecord& write) {
+  const auto makes = [&](uint32_t id) { return makes_available(history.model.scopes[id], write); };
+  const auto count = std::count_if(covering.begin(), covering.end(), makes);
+  if (write.available && count > 0) forget_root(write);
+  if (write.available || count != 1) return false;
+  const uint32_t id = *std::find_if(covering.begin(), covering.end(), makes);
+  write.reach.root = unite(availability_proof(history.model.scopes[id], id, write), {atom_of(id, AtomField::whole)});
+  return true;
+}
+
+void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
+  std::vector<uint32_t> covering = group.memory;
+  covering.insert(covering.end(), local.begin(), local.end());
+  Updates updates;
+  const bool rooted = history.proofs && is_rooted(history, covering, write);
+  for (const uint32_t id : covering) {
+    const Scope& scope = history.model.scopes[id];
+    const bool first = makes_available(scope, write);
+    Alternatives source;
+    if (write.available && (write.reach.stages & scope.src_earlier)) add_chained_sources(scope, id, write.reach, source);
+    if (first) source.add(rooted ? Proof{} : availability_proof(scope, id, write));
+    updates.available = updates.available || first;
+    see(history, id, write, source, updates);
+  }
+  if (write.available && concerns(group, write.reach, 0))
+    for (const ExecutionClass& execution : group.classes)
+      if (!execution.sole || !is_local(local, execution.scope)) chain(history, execution, write.reach, 0, updates);
+  commit(history, updates, write);
+  if (rooted) drop_root(write);
+}
+
+// Where one barrier of the group alone waits for the read for the first time, all later proofs grow from it.
+bool is_rooted(const History& history, const GroupNode& group, ReadRecord& read) {
+  const StageSet own = stage_bit(read.stage);
+  if (!(own & group.src_earlier)) return false;
+  const auto waits = [&](const ExecutionClass& execution) { return (history.model.scopes[execution.scope].src_earlier & own) != 0; };
+  if (!read.reach.root.empty()) forget_root(read.reach);
+  if (read.reach.stages != 0 || std::count_if(group.classes.begin(), group.classes.end(), waits) != 1) return false;
+  const ExecutionClass& only = *std::find_if(group.classes.begin(), group.classes.end(), waits);
+  if (!only.sole) return false;
+  Alternatives sources;
+  add_meeting_sources(history.model.scopes[only.scope], only.scope, read.stage, kNoProof, sources);
+  read.reach.root = unite(*sources.proof, {atom_of(only.scope, AtomField::whole)});
+  return true;
 }
 
 void apply(const History& history, const GroupNode& group, ReadRecord& read) {
   const StageSet own = stage_bit(read.stage);
+  const bool rooted = history.proofs && is_rooted(history, group, read);
   if (!concerns(group, read.reach, own)) return;
-  StageSet plain = 0;
-  std::vector<NewReach> next;
-  for (const uint32_t id : group.scopes) {
-    const Scope& scope = history.model.scopes[id];
-    if (!((read.reach.stages | own) & scope.src_earlier)) continue;
-    plain |= scope.dst_later;
-    if (!history.proofs || !(scope.dst_later & ~read.reach.settled)) continue;
-    Proof proof;
-    in_source(scope, id, read, proof);
-    add_reach(scope, id, proof, read.reach.settled, next);
-  }
-  if (!history.proofs) extend_plain(read.reach, plain);
-  for (const NewReach& n : next) merge(read.reach, n);
+  Updates updates;
+  for (const ExecutionClass& execution : group.classes) chain(history, execution, read.reach, own, updates);
+  if (!history.proofs) return extend_plain(read.reach, updates.reach);
+  for (const NewReach& next : updates.new_reach) merge(read.reach, next);
+  if (rooted) drop_root(read.reach);
 }
 
 }  // namespace
 
-const Proof* proof_of_reach(const Reach& reach, uint32_t stage) {
-  for (const auto& [s, proof] : reach.proofs)
-    if (s == stage) return &proof;
-  return &kNoProof;
-}
-
-const Proof* proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access) {
-  for (const VisibleTo& v : write.proofs)
-    if (v.stage == stage && v.access == access) return &v.proof;
-  return &kNoProof;
-}
+Proof proof_of_reach(const ReadRecord& read, uint32_t stage) { return unite(read.reach.root, relative_proof(read.reach, stage)); }
+Proof proof_of_reach(const WriteRecord& write, uint32_t stage) { return unite(write.reach.root, relative_proof(write.reach, stage)); }
+Proof proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access) { return unite(write.reach.root, relative_proof(write, stage, access)); }
 
 bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Proof& proof) {
   if (!((read.reach.stages | stage_bit(read.stage)) & scope.src_earlier)) return false;
   Alternatives alternatives;
-  add_meeting_sources(scope, scope_id, read.stage, kNoProof, alternatives);
   add_chained_sources(scope, scope_id, read.reach, alternatives);
+  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, read.reach.root);
+  add_meeting_sources(scope, scope_id, read.stage, kNoProof, alternatives);
   proof = std::move(*alternatives.proof);
   return true;
 }
 
 bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, Proof& proof) {
   Alternatives alternatives;
-  if (makes_available(scope, write))
-    alternatives.add(unite(stage_atom(scope_id, AtomField::src_stage, scope.raw_src, write.stage),
-                           access_atom(scope_id, AtomField::src_access, scope.raw_src_accesses, write.access)));
   if (write.available) add_chained_sources(scope, scope_id, write.reach, alternatives);
+  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, write.reach.root);
+  if (makes_available(scope, write)) alternatives.add(availability_proof(scope, scope_id, write));
   if (!alternatives.proof) return false;
   proof = std::move(*alternatives.proof);
   return true;
@@ -233,7 +313,7 @@ bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, 
 
 void advance(const History& history, ReadRecord& read) {
   for (; read.seen < history.groups.size(); ++read.seen) {
-    if (read.reach.settled == kAllStages) {
+    if (read.reach.settled == kAllStages && read.reach.root.empty()) {
       read.seen = static_cast<uint32_t>(history.groups.size());
       return;
     }
@@ -244,8 +324,8 @@ void advance(const History& history, ReadRecord& read) {
 void advance(const History& history, WriteRecord& write) {
   for (; write.seen < history.groups.size(); ++write.seen) {
     const GroupNode& group = history.model.groups[history.groups[write.seen]];
-    const bool chain = write.available && concerns(group, write.reach, 0);
-    if (group.has_memory || chain) apply(history, group, {}, write);
+    const bool chained = write.available && concerns(group, write.reach, 0);
+    if (!group.memory.empty() || chained) apply(history, group, {}, write);
   }
 }
 
@@ -279,6 +359,10 @@ WriteRecord transition_record(const History& history, const Scope& scope, uint32
     add_visible(scope, scope_id, {}, updates.new_visible);
   }
   commit(history, updates, write);
+  if (history.proofs) {
+    write.reach.root = {atom_of(scope_id, AtomField::whole)};
+    drop_root(write);
+  }
   return write;
 }
 

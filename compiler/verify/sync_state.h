@@ -25,11 +25,13 @@ using Proof = std::vector<Atom>;  // sorted
 
 enum class AtomField : uint8_t { whole, src_stage, src_access, dst_stage, dst_access };
 constexpr Atom atom_of(uint32_t scope, AtomField field, uint32_t bit = 0) { return (scope * 5 + static_cast<uint32_t>(field)) * 64 + bit; }
+constexpr uint32_t scope_of(Atom atom) { return atom / (5 * 64); }
 
 // Stages ordered after something.
 struct Reach {
   StageSet stages = 0;
-  StageSet settled = 0;                            // no single atom is needed any more
+  StageSet settled = 0;                            // needs no atom beyond the root's
+  Proof root;                                      // what every proof also uses: the one barrier with which everything began
   std::vector<std::pair<uint32_t, Proof>> proofs;  // of stages that are not settled
 };
 
@@ -52,7 +54,7 @@ struct WriteRecord {
   uint32_t seen = 0;
   bool available = false;
   bool read_since = false;  // by a pass that always runs: who waits for it comes after this write, and sees it
-  Reach reach;              // from where it became available
+  Reach reach;  // from where it became available
   AccessSet visible[kStageCount] = {};
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
 };
@@ -87,7 +89,9 @@ bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, 
 // The state a layout transition leaves.
 WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id);
 
-const Proof* proof_of_reach(const Reach& reach, uint32_t stage);
-const Proof* proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access);
+// Of facts that hold.
+Proof proof_of_reach(const ReadRecord& read, uint32_t stage);
+Proof proof_of_reach(const WriteRecord& write, uint32_t stage);
+Proof proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access);
 
 }  // namespace rg::verify

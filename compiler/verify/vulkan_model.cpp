@@ -39,6 +39,15 @@ constexpr std::array<StageRow, kStageCount> kStageRows = {{
     {"host", stage::host, stage_bit(kHost), access_bit(kHostRead) | access_bit(kHostWrite)},
 }};
 
+constexpr std::array<StageSet, kStageCount> make_later() {
+  std::array<StageSet, kStageCount> later{};
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    for (uint32_t t = 0; t < kStageCount; ++t)
+      if (kStageRows[t].earlier & stage_bit(s)) later[s] |= stage_bit(t);
+  return later;
+}
+constexpr std::array<StageSet, kStageCount> kLater = make_later();
+
 struct AccessRow {
   const char* name;
   Accesses raw;
@@ -132,15 +141,13 @@ uint32_t raw_bit_of_access(Accesses raw, uint32_t access) {
 
 StageSet with_earlier(StageSet stages) {
   StageSet set = 0;
-  for (uint32_t s = 0; s < kStageCount; ++s)
-    if (stages & stage_bit(s)) set |= kStageRows[s].earlier;
+  for (StageSet rest = stages; rest != 0; rest &= rest - 1) set |= kStageRows[static_cast<size_t>(std::countr_zero(rest))].earlier;
   return set;
 }
 
 StageSet with_later(StageSet stages) {
   StageSet set = 0;
-  for (uint32_t s = 0; s < kStageCount; ++s)
-    if (kStageRows[s].earlier & stages) set |= stage_bit(s);
+  for (StageSet rest = stages; rest != 0; rest &= rest - 1) set |= kLater[static_cast<size_t>(std::countr_zero(rest))];
   return set;
 }
 
