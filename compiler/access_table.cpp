@@ -150,6 +150,20 @@ bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   return access.mode == Mode::update || access.disjoint || (is_attachment(access.role) && (access.blend.enabled || !covers(pass, access)));
 }
 
+Accesses supported_accesses(Stages stage) {
+  constexpr Stages kTests = stage::early_fragment_tests | stage::late_fragment_tests;
+  constexpr Stages kTransfers = stage::copy | stage::resolve | stage::blit | stage::clear | stage::all_transfer;
+  if (stage == stage::draw_indirect) return access::indirect_command_read;
+  if (stage == stage::index_input) return access::index_read;
+  if (stage == stage::vertex_attribute_input) return access::vertex_attribute_read;
+  if (stage & kTests) return access::depth_stencil_attachment_read | access::depth_stencil_attachment_write;
+  if (stage == stage::color_attachment_output) return access::color_attachment_read | access::color_attachment_write;
+  if (stage & kTransfers) return access::transfer_read | access::transfer_write;
+  if (stage == stage::host) return access::host_read | access::host_write;
+  const Accesses shader = access::uniform_read | access::shader_sampled_read | access::shader_storage_read | access::shader_storage_write;
+  return stage == stage::fragment_shader ? shader | access::input_attachment_read : shader;
+}
+
 // The graphics pipeline in its logical order; compute has only the indirect stage before it; all other stages stand alone.
 namespace {
 constexpr std::array<Stages, 11> kGraphics = {

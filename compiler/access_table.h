@@ -38,6 +38,9 @@ inline bool is_attachment(dsl::Role role) {
   return role == dsl::Role::color || role == dsl::Role::depth || role == dsl::Role::depth_readonly || role == dsl::Role::stencil;
 }
 
+// Accesses that one stage can make; stages of the table in access.def only.
+Accesses supported_accesses(Stages stage);
+
 // The latest stages alone: in an execution scope that comes first, a stage stands for all logically earlier ones.
 Stages latest_stages(Stages stages);
 // The earliest stages alone: in an execution scope that comes second, a stage stands for all logically later ones.

@@ -45,64 +45,85 @@ class Chains {
   std::vector<std::vector<Scopes>> distinct_;  // by group
 };
 
-template <class Holds>
-bool for_all_events(const CellBarrier& b, Holds holds) {
-  return std::all_of(b.sources.begin(), b.sources.end(), [&](const Event& event) {
-    for (Stages rest = event.stages; rest; rest &= rest - 1)
-      if (!holds(rest & ~(rest - 1), event.earlier_frame ? 0 : event.segment + 1)) return false;
-    return true;
-  });
+// An order that no barrier of its own realises any more, so that others must keep doing it.
+struct Claim {
+  Stages stage = 0;                 // of a command before group `first`
+  uint32_t first = 0, end = 0;      // groups that may order it
+  Stages wanted = 0;
+  bool all = true;                  // all of `wanted` must come after it; or any
+};
+
+bool holds(const Chains& chains, const Claim& claim) {
+  if (claim.all) return chains.reaches(claim.stage, claim.first, claim.end, claim.wanted);
+  if (claim.stage & claim.wanted) return true;
+  for (Stages rest = claim.wanted; rest; rest &= rest - 1)
+    if (chains.reaches(claim.stage, claim.first, claim.end, rest & ~(rest - 1))) return true;
+  return false;
 }
 
-// Barriers of one group do not chain, so groups before `index` only.
-bool reaches_any(const Chains& chains, Stages stage, uint32_t first, uint32_t index, Stages any_of) {
-  if (stage & any_of) return true;
-  for (Stages rest = any_of; rest; rest &= rest - 1)
-    if (chains.reaches(stage, first, index, rest & ~(rest - 1))) return true;
-  return false;
+// What must hold for the barrier's sources, if the barrier is gone (`src` 0) or waits for `src` only. Barriers of its own group help where execution
+// alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
+std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages src) {
+  std::vector<Claim> claims;
+  const bool transition = b.old_layout != b.new_layout;
+  for (const Event& event : b.sources) {
+    const uint32_t first = event.earlier_frame ? 0 : event.segment + 1;
+    for (Stages rest = event.stages; rest; rest &= rest - 1) {
+      const Stages stage = rest & ~(rest - 1);
+      if (transition)
+        claims.push_back({stage, first, group, with_earlier(src), false});
+      else
+        claims.push_back({stage, first, group + 1, b.dst_stages, true});
+    }
+  }
+  return claims;
 }
 
 bool execution_only(const CellBarrier& b) { return b.src_accesses == 0 && b.dst_accesses == 0 && b.old_layout == b.new_layout; }
 
-// Groups before the barrier's own, or another barrier of its group, order `stage` of a command before groups `first` and on before what the barrier does.
-bool is_ordered_anyway(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, Stages stage, uint32_t first, uint32_t index) {
-  if (chains.reaches(stage, first, index, b.dst_stages)) return true;
-  return std::any_of(group.begin(), group.end(), [&](const CellBarrier& other) {
-    const Scopes scopes = scopes_of(other);
-    return &other != &b && (b.dst_stages & ~scopes.second) == 0 && reaches_any(chains, stage, first, index, scopes.first);
-  });
-}
+class Dropper {
+ public:
+  explicit Dropper(SyncPlan& sync) : sync_(sync), chains_(sync) {}
 
-bool is_implied(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index) {
-  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) { return is_ordered_anyway(chains, group, b, stage, first, index); });
-}
+  void run() {
+    for (uint32_t g = 0; g < sync_.groups.size(); ++g) {
+      for (CellBarrier& b : sync_.groups[g])
+        if (execution_only(b) && !b.sources.empty()) narrow(b, g, 0);
+      std::erase_if(sync_.groups[g], [](const CellBarrier& b) { return execution_only(b) && b.src_stages == 0; });
+      for (CellBarrier& b : sync_.groups[g])
+        for (Stages bits = b.src_stages; bits; bits &= bits - 1)
+          if (b.src_accesses == 0 && !b.sources.empty() && std::popcount(b.src_stages) > 1) narrow(b, g, b.src_stages & ~(bits & ~(bits - 1)));
+    }
+  }
 
-// Everything the barrier waits for still reaches its first scope when `dropped` is taken out of it; or need not, where only the order counts.
-bool holds_without(const Chains& chains, const std::vector<CellBarrier>& group, const CellBarrier& b, uint32_t index, Stages dropped) {
-  const Stages rest = with_earlier(b.src_stages & ~dropped);
-  const bool transition = b.old_layout != b.new_layout;
-  return !b.sources.empty() && for_all_events(b, [&](Stages stage, uint32_t first) {
-    return reaches_any(chains, stage, first, index, rest) || (!transition && is_ordered_anyway(chains, group, b, stage, first, index));
-  });
-}
+ private:
+  // Claims are checked again at each later change, which is what bounds their number.
+  static constexpr size_t kMostClaims = 2000;
+
+  void narrow(CellBarrier& b, uint32_t group, Stages src) {
+    if (claims_.size() > kMostClaims) return;
+    const Stages before = b.src_stages;
+    const std::vector<Claim> claims = claims_without(b, group, src);
+    b.src_stages = src;
+    chains_.refresh(group);
+    const auto touched = [&](const Claim& claim) { return claim.first > group || claim.end <= group || holds(chains_, claim); };
+    const bool fine = std::all_of(claims.begin(), claims.end(), [&](const Claim& claim) { return holds(chains_, claim); }) &&
+                      std::all_of(claims_.begin(), claims_.end(), touched);
+    if (fine) {
+      claims_.insert(claims_.end(), claims.begin(), claims.end());
+      return;
+    }
+    b.src_stages = before;
+    chains_.refresh(group);
+  }
+
+  SyncPlan& sync_;
+  Chains chains_;
+  std::vector<Claim> claims_;
+};
 
 }  // namespace
 
-void drop_implied(SyncPlan& sync) {
-  Chains chains(sync);
-  for (uint32_t g = 0; g < sync.groups.size(); ++g) {
-    std::vector<CellBarrier>& group = sync.groups[g];
-    const size_t before = group.size();
-    for (size_t i = group.size(); i-- > 0;)
-      if (execution_only(group[i]) && is_implied(chains, group, group[i], g)) group.erase(group.begin() + static_cast<ptrdiff_t>(i));
-    if (group.size() != before) chains.refresh(g);
-    for (CellBarrier& b : group)
-      for (Stages bits = b.src_stages; bits; bits &= bits - 1) {
-        if (b.src_accesses != 0 || std::popcount(b.src_stages) < 2 || !holds_without(chains, group, b, g, bits & ~(bits - 1))) continue;
-        b.src_stages &= ~(bits & ~(bits - 1));
-        chains.refresh(g);
-      }
-  }
-}
+void drop_implied(SyncPlan& sync) { Dropper(sync).run(); }
 
 }  // namespace rg::compiler

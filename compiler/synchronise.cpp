@@ -27,13 +27,15 @@ const char* hazard_name(const Side& from, const Side& to, bool discards) {
 
 bool is_subset(uint64_t part, uint64_t whole) { return (part & ~whole) == 0; }
 
-// The reads of `effect` that `seen` lacks; all of them where neither its stages nor its accesses tell them apart.
+// The stages and reads of `effect` that `seen` lacks.
 Effect not_seen(const Effect& effect, const Effect& seen) {
-  Effect result = effect;
-  if (is_subset(effect.read_stages, seen.read_stages))
-    result.reads &= ~seen.reads;
-  else if (is_subset(effect.reads, seen.reads))
-    result.read_stages &= ~seen.read_stages;
+  Effect result;
+  for (Stages rest = effect.read_stages; rest; rest &= rest - 1) {
+    const Stages stage = rest & ~(rest - 1);
+    const Accesses reads = effect.reads & supported_accesses(stage) & ~((seen.read_stages & stage) ? seen.reads : 0);
+    result.reads |= reads;
+    if (reads) result.read_stages |= stage;
+  }
   return result;
 }
 
@@ -121,11 +123,17 @@ class Synchroniser {
 
   // ---- within a frame -----------------------------------------------------------------------------------------------
 
-  // Barriers between neighbouring epochs of one age; gives whether contents are defined at the end.
-  bool connect_within(const Line& line, size_t first, size_t end, bool defined) {
-    for (size_t i = first; i < end; ++i) {
+  // Barriers between neighbouring epochs; gives whether contents are defined at the end. `seen`: what contents from before the frame are visible to,
+  // as long as nothing has changed them.
+  bool connect_within(const Line& line, bool defined, const Effect* seen = nullptr) {
+    for (size_t i = 0; i < line.epochs.size(); ++i) {
       const Epoch& to = line.epochs[i];
-      if (i > first) add(to.first_segment, connect(cell_at(line, to.age), side_of(line.cell, line.epochs[i - 1], defined), side_of(line.cell, to, true)));
+      if (i > 0) {
+        Side from = side_of(line.cell, line.epochs[i - 1], defined), next = side_of(line.cell, to, true);
+        if (seen) from.skippable = false, next.seen = *seen;
+        add(to.first_segment, connect(cell_at(line, to.age), from, next));
+      }
+      if (to.writes || to.effect.layout != line.epochs.front().effect.layout) seen = nullptr;
       defined = defined || to.writes;
     }
     return defined;
@@ -140,7 +148,7 @@ class Synchroniser {
     CellBarrier acquire = connect(line.cell, last, side_of(line.cell, line.epochs.front(), true));
     acquire.is_acquire = true;
     add(group, std::move(acquire));
-    connect_within(line, 0, line.epochs.size(), false);
+    connect_within(line, false);
     note_hand_over(resource, group, line.epochs.front().effect, line.epochs.back().effect);
     boundary(sync_.entry, line.cell, last.effect, last.writes, Layout::undefined, true);
     boundary(sync_.exit, line.cell, last.effect, last.writes, last.effect.layout, true);
@@ -204,26 +212,43 @@ class Synchroniser {
     const dsl::Resource& resource = frame_.resource_of(line.cell);
     const uint32_t aspect = frame_.cells[line.cell].range.aspects;
     const Side before = state_before(resource, aspect, line.epochs.front());
-    Effect after = effect_of(resource.after, aspect);
+    const Effect after = effect_of(resource.after, aspect);
     Line whole = line;
     cover_after(whole, before, after);
-    const Epoch& first = whole.epochs.front();
-    if (!is_visible(before, first)) {
-      Side to = side_of(line.cell, first, true);
-      if (before.defined && !before.writes) to.seen = before.effect;
-      add(first.first_segment, connect(line.cell, before, to));
-    }
-    const bool defined = connect_within(whole, 0, whole.epochs.size(), before.defined);
+    enter(whole, before);
+    const bool defined = connect_within(whole, before.defined, settled(before, whole.epochs.front()) ? &before.effect : nullptr);
     const Epoch& last = whole.epochs.back();
-    Side next{after, after.writes != 0, true, true, {}, false, {}};
-    const auto changes = [&](const Epoch& epoch) { return epoch.writes || epoch.effect.layout != before.effect.layout; };
-    if (before.defined && !before.writes && std::none_of(whole.epochs.begin(), whole.epochs.end(), changes)) next.seen = before.effect;
-    const bool stays = resource.after.role == dsl::Role::undefined || continues_after(last, after);
-    if (!stays) exits_.push_back({last.last_segment + 1, connect(line.cell, unnamed(side_of(line.cell, last, defined), after), next)});
     boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
-    const bool undefined_after = resource.after.role == dsl::Role::undefined;
-    boundary(sync_.exit, line.cell, undefined_after ? last.effect : after, undefined_after ? last.writes : next.writes,
-             undefined_after ? last.effect.layout : after.layout, undefined_after);
+    if (resource.after.role == dsl::Role::undefined) {
+      boundary(sync_.exit, line.cell, last.effect, last.writes, last.effect.layout, true);
+      return;
+    }
+    if (!continues_after(last, after)) leave(whole, before, after, defined);
+    boundary(sync_.exit, line.cell, after, after.writes != 0, after.layout, false);
+  }
+
+  void enter(const Line& line, const Side& before) {
+    const Epoch& first = line.epochs.front();
+    if (is_visible(before, first)) return;
+    Side to = side_of(line.cell, first, true);
+    if (before.defined && !before.writes) to.seen = before.effect;
+    add(first.first_segment, connect(line.cell, before, to));
+  }
+
+  void leave(const Line& line, const Side& before, const Effect& after, bool defined) {
+    const Epoch& last = line.epochs.back();
+    Side next{after, after.writes != 0, true, true, {}, false, {}};
+    const bool untouched = std::all_of(line.epochs.begin(), line.epochs.end(), [&](const Epoch& epoch) { return settled(before, epoch); });
+    if (untouched)
+      next.seen = before.effect;
+    else if (!last.writes && last.effect.layout == after.layout)
+      next.seen = last.covered;
+    exits_.push_back({last.last_segment + 1, connect(line.cell, unnamed(side_of(line.cell, last, defined), after), next)});
+  }
+
+  // The epoch leaves contents and layout as they came.
+  static bool settled(const Side& before, const Epoch& epoch) {
+    return before.defined && !before.writes && !epoch.writes && epoch.effect.layout == before.effect.layout;
   }
 
   // Contents of unknown state are worthless. A presented image is handed over by a semaphore, waited for at its first use; another one is ordered
@@ -261,15 +286,19 @@ class Synchroniser {
 
   static bool is_visible(const Side& before, const Epoch& first) {
     const Effect &b = before.effect, &f = first.effect;
-    return before.defined && !before.writes && !first.writes && b.layout == f.layout && is_subset(f.reads, b.reads) && is_subset(f.read_stages, b.read_stages);
+    return settled(before, first) && is_subset(f.reads, b.reads) && is_subset(f.read_stages, b.read_stages);
   }
 
+  // The host is one more reader of the last version.
   void readback(const Line& line) {
-    connect_within(line, 0, line.epochs.size(), false);
-    const Epoch& last = line.epochs.back();
     Effect host;
     host.read_stages = stage::host, host.reads = access::host_read;
-    exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
+    Line whole = line;
+    Epoch& last = whole.epochs.back();
+    const bool joins = !last.writes && whole.epochs.size() > 1;
+    if (joins) merge(last.covered, host);
+    connect_within(whole, false);
+    if (!joins) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
     boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
     boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
   }
