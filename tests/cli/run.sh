@@ -4,6 +4,7 @@
 set -uo pipefail
 source_dir=$1 binary_dir=$2
 cases=$source_dir/tests/cli
+[ -x "$binary_dir/compiler/rgc" ] || { echo "there is no $binary_dir/compiler/rgc"; exit 1; }
 work=$(mktemp -d)
 trap 'chmod -R u+w "$work"; rm -rf "$work"' EXIT
 mkdir "$work/bin"
