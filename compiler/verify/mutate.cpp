@@ -1,0 +1,263 @@
+#include "compiler/verify/mutate.h"
+
+#include <algorithm>
+
+namespace rg::verify {
+namespace {
+
+template <class Row>
+using Column = std::span<const Row> Plan::*;
+
+const char* tag_name(BarrierTag tag) {
+  switch (tag) {
+    case BarrierTag::hazard:
+      return "";
+    case BarrierTag::valid_usage:
+      return "tagged: valid usage";
+    case BarrierTag::workaround:
+      return "tagged: work-around";
+    case BarrierTag::merged_batch:
+      return "tagged: merged batch";
+    case BarrierTag::boundary_join:
+      return "tagged: boundary join";
+    case BarrierTag::alias_pair:
+      return "tagged: alias pair";
+  }
+  return "tagged";
+}
+
+class Mutator {
+ public:
+  Mutator(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
+          const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource, const MutateOptions& options)
+      : program_(program),
+        graph_(graph),
+        configuration_(configuration),
+        plan_(plan),
+        program_pass_(program_pass),
+        program_resource_(program_resource),
+        options_(options) {}
+
+  MutationReport run() {
+    for (Index i = 0; i < plan_.memory_barriers.size(); ++i) masks(&Plan::memory_barriers, i, "memory barrier");
+    for (Index i = 0; i < plan_.image_barriers.size(); ++i) image(i);
+    for (Index i = 0; i < plan_.buffer_barriers.size(); ++i) buffer(i);
+    for (Index i = 0; i < plan_.attachments.size(); ++i) attachment(i);
+    for (Index i = 0; i < plan_.releases.size(); ++i) release(i);
+    for (Index i = 0; i + 1 < plan_.steps.size(); ++i) order(i);
+    for (Index i = 0; i + 1 < plan_.acquires.size(); ++i) placement(i);
+    return std::move(report_);
+  }
+
+ private:
+  // ---- one mutant -------------------------------------------------------------------------------------------------------
+
+  // `harmless`: the class to which the mutant belongs if it survives; empty: it must not.
+  void judge(const Plan& mutant, const std::string& what, const std::string& harmless) {
+    if (turn_++ % options_.every != 0) return;
+    ++report_.mutants;
+    if (options_.progress) options_.progress(report_.mutants);
+    VerifyOptions verify_options;
+    verify_options.irredundancy = false;
+    verify_options.max_findings = 1;
+    const bool killed = !verify(program_, graph_, configuration_, mutant, program_pass_, program_resource_, verify_options).empty();
+    if (killed)
+      ++report_.killed;
+    else if (!harmless.empty())
+      ++report_.equivalent[harmless];
+    else
+      report_.survivors.push_back(what);
+  }
+
+  template <class Row, class Change>
+  void change(Column<Row> column, Index at, Change apply, const std::string& what, const std::string& harmless = {}) {
+    std::vector<Row> rows((plan_.*column).begin(), (plan_.*column).end());
+    apply(rows[at]);
+    Plan mutant = plan_;
+    mutant.*column = rows;
+    judge(mutant, what, harmless);
+  }
+
+  // The row leaves its table; groups, and acquires of images, are renumbered.
+  template <class Row>
+  void remove(Column<Row> column, Index BarrierGroup::*first, Index BarrierGroup::*count, Index at, const std::string& what,
+              const std::string& harmless) {
+    std::vector<Row> rows((plan_.*column).begin(), (plan_.*column).end());
+    rows.erase(rows.begin() + at);
+    std::vector<BarrierGroup> groups(plan_.groups.begin(), plan_.groups.end());
+    for (BarrierGroup& group : groups) {
+      if (at >= group.*first && at < group.*first + group.*count) --(group.*count);
+      if (group.*first > at) --(group.*first);
+    }
+    std::vector<Acquire> acquires(plan_.acquires.begin(), plan_.acquires.end());
+    if constexpr (std::is_same_v<Row, ImageBarrier>)
+      for (Acquire& acquire : acquires) {
+        if (acquire.image_barrier == kNone) continue;
+        if (at >= acquire.image_barrier && at < acquire.image_barrier + acquire.image_barriers) --acquire.image_barriers;
+        if (acquire.image_barrier > at) --acquire.image_barrier;
+        if (acquire.image_barriers == 0) acquire.image_barrier = kNone;
+      }
+    Plan mutant = plan_;
+    mutant.*column = rows, mutant.groups = groups, mutant.acquires = acquires;
+    judge(mutant, what, harmless);
+  }
+
+  // ---- elements -----------------------------------------------------------------------------------------------------------
+
+  template <class Row, class Mask>
+  void clear_bits(Column<Row> column, Index at, Mask Row::*mask, const std::string& what, const std::string& harmless) {
+    for (Mask rest = (plan_.*column)[at].*mask; rest != 0; rest &= rest - 1) {
+      const Mask bit = rest & ~(rest - 1);
+      change(
+          column, at, [&](Row& row) { row.*mask &= ~bit; }, what + " without bit " + std::to_string(bit), harmless);
+    }
+  }
+
+  template <class Row>
+  void masks(Column<Row> column, Index at, const std::string& what) {
+    const Row& row = (plan_.*column)[at];
+    const std::string harmless = tag_name(row.tag), name = what + " " + std::to_string(at);
+    clear_bits(column, at, &Row::src_stages, name + ", source stages", harmless);
+    clear_bits(column, at, &Row::src_accesses, name + ", source accesses", harmless);
+    clear_bits(column, at, &Row::dst_stages, name + ", destination stages", harmless);
+    clear_bits(column, at, &Row::dst_accesses, name + ", destination accesses", harmless.empty() ? reads_own_clear(row) : harmless);
+  }
+
+  template <class Row>
+  static std::string reads_own_clear(const Row&) {
+    return {};
+  }
+  // A depth test behind a clear reads what the clear wrote, never what was there before.
+  static std::string reads_own_clear(const ImageBarrier& row) {
+    const Accesses depth = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write;
+    return row.old_layout == Layout::undefined && row.dst_accesses == depth ? "tests against the pass's own clear" : "";
+  }
+
+  std::string resource_name(const Ref& ref) const { return std::string(plan_.resources[ref.resource].name); }
+
+  void image(Index at) {
+    const ImageBarrier& row = plan_.image_barriers[at];
+    const std::string what = "image barrier on " + resource_name(row.image), harmless = tag_name(row.tag);
+    remove(&Plan::image_barriers, &BarrierGroup::first_image, &BarrierGroup::image_count, at, what + " " + std::to_string(at) + " removed", harmless);
+    masks(&Plan::image_barriers, at, what);
+    const Layout other = row.new_layout == Layout::general ? Layout::shader_read_only : Layout::general;
+    change(
+        &Plan::image_barriers, at, [&](ImageBarrier& b) { b.new_layout = other; }, what + ", another new layout");
+    if (row.old_layout != Layout::undefined)
+      change(
+          &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded", dead_contents(row));
+    if (row.range.mips != kRemaining && row.range.mips > 1)
+      change(
+          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.mips; }, what + ", last mip left out", harmless);
+    if (row.range.layers != kRemaining && row.range.layers > 1)
+      change(
+          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.layers; }, what + ", last layer left out", harmless);
+  }
+
+  // Contents that the next user overwrites entirely are not missed.
+  static std::string dead_contents(const ImageBarrier& row) {
+    const Accesses reads = access::shader_sampled_read | access::shader_storage_read | access::shader_read | access::color_attachment_read |
+                           access::depth_stencil_attachment_read | access::input_attachment_read | access::transfer_read | access::memory_read;
+    return (row.dst_accesses & reads) == 0 && row.dst_accesses != 0 ? "contents that the next pass may overwrite" : "";
+  }
+
+  void buffer(Index at) {
+    const std::string what = "buffer barrier on " + resource_name(plan_.buffer_barriers[at].buffer);
+    remove(&Plan::buffer_barriers, &BarrierGroup::first_buffer, &BarrierGroup::buffer_count, at, what + " " + std::to_string(at) + " removed",
+           tag_name(plan_.buffer_barriers[at].tag));
+    masks(&Plan::buffer_barriers, at, what);
+  }
+
+  void attachment(Index at) {
+    const Attachment& row = plan_.attachments[at];
+    const std::string what = "attachment " + resource_name(row.ref);
+    if (row.load == LoadOp::load)
+      change(
+          &Plan::attachments, at, [](Attachment& a) { a.load = LoadOp::dont_care; }, what + " not loaded");
+    if (row.load == LoadOp::clear)
+      change(
+          &Plan::attachments, at, [](Attachment& a) { a.load = LoadOp::dont_care; }, what + " not cleared");
+    if (row.store == StoreOp::store)
+      change(
+          &Plan::attachments, at, [](Attachment& a) { a.store = StoreOp::dont_care; }, what + " not stored");
+  }
+
+  void release(Index at) {
+    const std::string what = "release of " + std::string(plan_.resources[plan_.releases[at].resource].name);
+    const bool can_hand_on = std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(),
+                                         [&](const AliasPair& pair) { return pair.before == plan_.releases[at].resource; });
+    const std::string harmless = can_hand_on ? "" : "release that nobody may take over";
+    // One of several stages may be ordered before every possible taker by the frame's own barriers.
+    const Stages stages = plan_.releases[at].stages;
+    const std::string implied = can_hand_on && (stages & (stages - 1)) != 0 ? "release that other barriers order already" : harmless;
+    clear_bits(&Plan::releases, at, &Release::stages, what + ", stages", implied);
+    clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
+  }
+
+  // ---- order --------------------------------------------------------------------------------------------------------------
+
+  void order(Index at) {
+    if (plan_.steps[at].kind != StepKind::pass) return;
+    Index next = at + 1;
+    while (next < plan_.steps.size() && plan_.steps[next].kind != StepKind::pass) ++next;
+    if (next == plan_.steps.size()) return;
+    std::vector<Step> steps(plan_.steps.begin(), plan_.steps.end());
+    std::swap(steps[at], steps[next]);
+    Plan mutant = plan_;
+    mutant.steps = steps;
+    const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
+    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged", depend(a, b) ? "" : "passes that do not meet");
+  }
+
+  bool depend(const Pass& a, const Pass& b) const {
+    for (const Access& x : plan_.accesses.subspan(a.first_access, a.access_count))
+      for (const Access& y : plan_.accesses.subspan(b.first_access, b.access_count))
+        if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes) return true;
+    return false;
+  }
+
+  static bool meet(uint32_t begin, uint32_t count, uint32_t other, uint32_t other_count) {
+    const uint64_t end = count == kRemaining ? UINT64_MAX : uint64_t{begin} + count;
+    const uint64_t other_end = other_count == kRemaining ? UINT64_MAX : uint64_t{other} + other_count;
+    return begin < other_end && other < end;
+  }
+  static bool meet(const Range& x, const Range& y) {
+    if (x.aspects == 0 && y.aspects == 0) return true;  // buffers
+    return (x.aspects & y.aspects) != 0 && meet(x.mip, x.mips, y.mip, y.mips) && meet(x.layer, x.layers, y.layer, y.layers);
+  }
+
+  // ---- placement ------------------------------------------------------------------------------------------------------------
+
+  bool may_share(Index a, Index b) const {
+    return std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(),
+                       [&](const AliasPair& pair) { return (pair.before == a && pair.after == b) || (pair.before == b && pair.after == a); });
+  }
+
+  void placement(Index at) {
+    const Index a = plan_.acquires[at].resource, b = plan_.acquires[at + 1].resource;
+    if (may_share(a, b)) return;
+    const uint64_t offset = plan_.resources[b].estimated_offset;
+    change(
+        &Plan::resources, a, [&](Resource& resource) { resource.estimated_offset = offset; },
+        std::string(plan_.resources[a].name) + " placed on " + std::string(plan_.resources[b].name));
+  }
+
+  const dsl::Program& program_;
+  dsl::GraphId graph_;
+  const std::vector<uint32_t>& configuration_;
+  const Plan& plan_;
+  const std::vector<uint32_t>& program_pass_;
+  const std::vector<uint32_t>& program_resource_;
+  const MutateOptions& options_;
+  size_t turn_ = 0;
+  MutationReport report_;
+};
+
+}  // namespace
+
+MutationReport mutate(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
+                      const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource, const MutateOptions& options) {
+  return Mutator(program, graph, configuration, plan, program_pass, program_resource, options).run();
+}
+
+}  // namespace rg::verify
