@@ -10,6 +10,8 @@ namespace rg::demo {
 namespace {
 
 constexpr float kFrameSeconds = 1.0f / 30;
+struct Times { float now = 0, before = 0; };  // seconds, of this frame and of the last one
+
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
 rg::vec2 to_rg(glm::vec2 v) { return {v.x, v.y}; }
@@ -61,9 +63,9 @@ std::vector<frame::Light> make_lights(const Scene& scene, const glm::mat4& to_vi
 
 float stretch(const glm::mat4& m) { return std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])})); }
 
-frame::Instance make_instance(const Scene& scene, const Instance& from, float time) {
+frame::Instance make_instance(const Scene& scene, const Instance& from, Times times) {
   const Mesh& mesh = scene.meshes[from.mesh];
-  const glm::mat4 now = moved(from.transform, from.animation, time), before = moved(from.transform, from.animation, time - kFrameSeconds);
+  const glm::mat4 now = moved(from.transform, from.animation, times.now), before = moved(from.transform, from.animation, times.before);
   frame::Instance to;
   to.model = to_rows(now);
   to.previous = to_rows(before);
@@ -76,13 +78,13 @@ frame::Instance make_instance(const Scene& scene, const Instance& from, float ti
   return to;
 }
 
-PropPlacement place(const Prop& prop, float time) {
+PropPlacement place(const Prop& prop, Times times) {
   PropPlacement to{prop.mesh, {}};
-  to.draw.model = to_rows(moved(prop.transform, prop.animation, time));
-  to.draw.previous = to_rows(moved(prop.transform, prop.animation, time - kFrameSeconds));
+  to.draw.model = to_rows(moved(prop.transform, prop.animation, times.now));
+  to.draw.previous = to_rows(moved(prop.transform, prop.animation, times.before));
   to.draw.tint = to_rg(prop.tint);
-  to.draw.swing = swing(prop.animation, time);
-  to.draw.swing_before = swing(prop.animation, time - kFrameSeconds);
+  to.draw.swing = swing(prop.animation, times.now);
+  to.draw.swing_before = swing(prop.animation, times.before);
   to.draw.sky = prop.sky;
   return to;
 }
@@ -138,13 +140,14 @@ static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameSettings& settings) {
   const float time = settings.animate ? kFrameSeconds * static_cast<float>(settings.number) : 0.0f;
+  const Times times{time, settings.animate ? time - kFrameSeconds : time};
   FrameData data;
   data.view = make_view(scene, camera, settings, time);
   data.lights = make_lights(scene, world_to_view(camera), time);
   data.view.light_count = static_cast<uint32_t>(data.lights.size());
-  for (const Instance& instance : scene.instances) data.instances.push_back(make_instance(scene, instance, time));
+  for (const Instance& instance : scene.instances) data.instances.push_back(make_instance(scene, instance, times));
   data.view.instance_count = static_cast<uint32_t>(data.instances.size());
-  for (const Prop& prop : scene.props) data.props.push_back(place(prop, time));
+  for (const Prop& prop : scene.props) data.props.push_back(place(prop, times));
   data.glass = sort_glass(scene, data.instances, camera.eye);
   const glm::mat4 at = glm::rotate(glm::translate(glm::mat4(1), scene.hologram_center), 0.6f * time, glm::vec3(0.2f, 1, 0.1f));
   Projection projection = project(camera, {settings.width, settings.height});

@@ -74,4 +74,4 @@ interface Scene {
   surface_maps: image rgba8 256x256 layers 32 mips 9  ready as sampled in fragment
 }
 
-sampler surface_sampler { filter linear  mip linear  address repeat  anisotropy 4 }
+sampler surface_sampler { filter linear  mip linear  address repeat }

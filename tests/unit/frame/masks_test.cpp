@@ -106,7 +106,7 @@ TEST(Cone, NeverRejectsWhatIntersects) {
   uint32_t intersecting = 0, rejected = 0;
   for (int i = 0; i < 1000000; ++i) {
     const double angle = between(random, 0.03, 1.5), height = between(random, 0.2, 8), radius = between(random, 0.01, 4);
-    const glm::dvec3 center(between(random, -14, 14), between(random, -14, 14), between(random, -9, 14));
+    const glm::dvec3 center(between(random, -10, 10), between(random, -10, 10), between(random, -6, 12));
     const bool touches = reference::cone_distance(center, angle, height) < radius * (1 - 1e-5);
     const bool kept = shader::cone_reaches(glm::vec3(0), glm::vec3(0, 0, 1), static_cast<float>(height), static_cast<float>(std::cos(angle)),
                                            static_cast<float>(std::sin(angle)), glm::vec3(center), static_cast<float>(radius));
