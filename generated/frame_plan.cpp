@@ -660,7 +660,7 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
@@ -860,10 +860,14 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
+    // frame start -> mesh_cull
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // mesh_cull.clear -> mesh_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
+    // frame start -> light_occlusion.clear
+    {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
     // zbin_build.clear -> zbin_build
@@ -889,7 +893,6 @@ constexpr BufferBarrier kBufferBarriers[] = {
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> deferred_light
     {.buffer = {.resource = resource::forward_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> transparent
-    {.buffer = {.resource = resource::histogram}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},  // frame start -> luminance.clear
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // luminance.clear -> luminance
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -902,8 +905,8 @@ constexpr BufferBarrier kBufferBarriers[] = {
 
 constexpr BarrierGroup kGroups[] = {
     {},  // before mesh_cull.clear  passes.rg:24
-    {.buffer_count = 1},  // before mesh_cull  passes.rg:24
-    {.image_count = 1, .first_buffer = 1, .buffer_count = 1},  // before depth_world  passes.rg:60
+    {.buffer_count = 2},  // before mesh_cull  passes.rg:24
+    {.image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before depth_world  passes.rg:60
     {.first_image = 1, .image_count = 1},  // before depth_props  passes.rg:70
     {.first_image = 2, .image_count = 2},  // before depth_range_first  passes.rg:82
     {.first_image = 4, .image_count = 1},  // before depth_range_down[1]  passes.rg:89
@@ -912,11 +915,11 @@ constexpr BarrierGroup kGroups[] = {
     {.first_image = 7, .image_count = 1},  // before depth_range_down[4]  passes.rg:89
     {.first_image = 8, .image_count = 1},  // before depth_range_down[5]  passes.rg:89
     {.first_image = 9, .image_count = 1},  // before depth_range_down[6]  passes.rg:89
-    {.first_image = 10, .image_count = 6},  // before depth_range_down[7]  passes.rg:89
-    {.first_image = 16, .image_count = 7, .first_buffer = 2, .buffer_count = 4},  // before sun_shadow_world  passes.rg:37
-    {.first_image = 23, .image_count = 3, .first_buffer = 6, .buffer_count = 3},  // before sun_shadow_props  passes.rg:47
-    {.first_image = 26, .image_count = 6, .first_buffer = 9, .buffer_count = 3},  // before deferred_light  passes.rg:200
-    {.first_image = 32, .image_count = 1, .first_buffer = 12, .buffer_count = 1},  // before transparent  passes.rg:217
+    {.first_image = 10, .image_count = 6, .first_buffer = 3, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:89
+    {.first_image = 16, .image_count = 7, .first_buffer = 4, .buffer_count = 4},  // before sun_shadow_world  passes.rg:37
+    {.first_image = 23, .image_count = 3, .first_buffer = 8, .buffer_count = 3},  // before sun_shadow_props  passes.rg:47
+    {.first_image = 26, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before deferred_light  passes.rg:200
+    {.first_image = 32, .image_count = 1, .first_buffer = 14, .buffer_count = 1},  // before transparent  passes.rg:217
     {.first_image = 33, .image_count = 1},  // before hologram  passes.rg:233
     {.first_image = 34, .image_count = 3},  // before resolve_temporal  passes.rg:279
     {.first_image = 37, .image_count = 3},  // before bloom_first  passes.rg:289
@@ -927,11 +930,11 @@ constexpr BarrierGroup kGroups[] = {
     {.first_image = 44, .image_count = 1},  // before bloom_down[5]  passes.rg:296
     {.first_image = 45, .image_count = 2},  // before bloom_up[1]  passes.rg:304
     {.first_image = 47, .image_count = 2},  // before bloom_up[2]  passes.rg:304
-    {.first_image = 49, .image_count = 2, .first_buffer = 13, .buffer_count = 1},  // before luminance.clear  passes.rg:265
-    {.first_image = 51, .image_count = 2, .first_buffer = 14, .buffer_count = 1},  // before luminance  passes.rg:265
-    {.first_image = 53, .image_count = 3, .first_buffer = 15, .buffer_count = 1},  // before debug_view  passes.rg:240
-    {.first_image = 56, .image_count = 3, .first_buffer = 16, .buffer_count = 1},  // before tonemap  passes.rg:311
-    {.first_image = 59, .image_count = 1, .first_buffer = 17, .buffer_count = 1},  // at the end of the frame
+    {.first_image = 49, .image_count = 2},  // before luminance.clear  passes.rg:265
+    {.first_image = 51, .image_count = 2, .first_buffer = 15, .buffer_count = 1},  // before luminance  passes.rg:265
+    {.first_image = 53, .image_count = 3, .first_buffer = 16, .buffer_count = 1},  // before debug_view  passes.rg:240
+    {.first_image = 56, .image_count = 3, .first_buffer = 17, .buffer_count = 1},  // before tonemap  passes.rg:311
+    {.first_image = 59, .image_count = 1, .first_buffer = 18, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -988,11 +991,11 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::exposure}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_storage_read, .queue = 0},
-    {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
-     .queue = 0, .discard = true},
+    {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::color, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::fragment_shader, .queue = 0,
@@ -1074,10 +1077,10 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::exposure}, .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_storage_read,
      .queue = 0},
-    {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
-    {.ref = {.resource = resource::color, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+    {.ref = {.resource = resource::color, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::fragment_shader,
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
@@ -1728,7 +1731,7 @@ constexpr Binding kBindings[] = {
 
 constexpr Sampler kSamplers[] = {
     {.name = "linear_clamp", .linear = true, .mip_linear = true},
-    {.name = "surface_sampler", .linear = true, .mip_linear = true, .address = 0, .max_anisotropy = 4.0f},
+    {.name = "surface_sampler", .linear = true, .mip_linear = true, .address = 0},
 };
 
 constexpr Params kParams[] = {
