@@ -92,7 +92,7 @@ void check_release(Aliases& aliases, uint32_t plan_resource) {
     CellState state = aliases.sync.last[aliases.model.cell(r, 0, c)];
     // What comes after waits for the release's stages; writes that are available chain from any of them.
     for (const ReadRecord& read : state.reads)
-      if (!((read.reach.stages | stage_bit(read.stage)) & with_earlier(pending.stages)))
+      if (!((read.reach().stages | stage_bit(read.stage)) & with_earlier(pending.stages)))
         report_alias(aliases, plan_resource, "the release does not wait for reads in " + stage_name(read.stage));
     for (const WriteRecord& write : state.writes) {
       const bool named = write.stage < kStageCount && (pending.accesses[write.stage] & access_bit(write.access));
@@ -112,7 +112,7 @@ void check_release_exact(Aliases& aliases, uint32_t plan_resource) {
   AccessSet accesses = 0;
   for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
     const CellState& state = aliases.sync.last[aliases.model.cell(r, 0, c)];
-    for (const ReadRecord& read : state.reads) stages |= stage_bit(read.stage) | read.reach.stages;
+    for (const ReadRecord& read : state.reads) stages |= stage_bit(read.stage) | read.reach().stages;
     for (const WriteRecord& write : state.writes) {
       if (write.stage < kStageCount) stages |= stage_bit(write.stage), accesses |= access_bit(write.access);
       stages |= write.reach.stages;

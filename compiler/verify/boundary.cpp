@@ -48,7 +48,7 @@ Layout layout_of_state(dsl::Role role, uint32_t aspect) {
 
 // Whoever waits for a pending stage waits for what comes before it in the pipeline, too.
 bool is_covered(const ReadRecord& read, const Pending& pending) {
-  return ((read.reach.stages | stage_bit(read.stage)) & with_earlier(pending.stages)) != 0;
+  return ((read.reach().stages | stage_bit(read.stage)) & with_earlier(pending.stages)) != 0;
 }
 
 StageSet stages_without(const Reach& reach, StageSet stages) {
@@ -89,11 +89,12 @@ void report_boundary(const Model& model, uint32_t resource, uint32_t cell, const
 
 void check_import(const Model& model, uint32_t r, const std::vector<Pending>& entry, Report& report) {
   const ResourceNode& node = model.resources[r];
+  History history{model, false, {}, {}};
   for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
     const Pending& given = entry[model.cell(r, 0, c)];
     const Pending declared = pending_of(model.resource(r).before, node.partition.shape.image, aspect_of_cell(node.partition, c));
     if (!given.stated) continue;
-    const std::string why = why_not_covered(state_from(declared, 0), given);
+    const std::string why = why_not_covered(state_from(declared, history), given);
     if (!why.empty()) report_boundary(model, r, c, "the entry state does not cover the declared `ready as` state: " + why, report);
     if (node.partition.shape.image && given.layout != declared.layout && given.layout != Layout::undefined)
       report_boundary(model, r, c, "entry layout " + layout_name(given.layout) + " is not the declared " + layout_name(declared.layout), report);
@@ -137,13 +138,14 @@ Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect)
   return pending;
 }
 
-CellState state_from(const Pending& pending, uint32_t seen) {
+CellState state_from(const Pending& pending, History& history) {
+  const auto seen = static_cast<uint32_t>(history.groups.size());
   CellState state;
   state.layout = pending.layout;
   if (pending.stages == 0) return state;
   for (uint32_t s = 0; s < kStageCount; ++s) {
     if (!(pending.stages & stage_bit(s))) continue;
-    state.reads.push_back({s, kNone, seen, 0, {}});
+    state.reads.push_back(make_read(history, s, kNone, 0));
     for (uint32_t a = 0; a < kAccessCount; ++a) {
       if (!(pending.accesses[s] & kAllWrites & access_bit(a))) continue;
       WriteRecord write;
@@ -181,6 +183,7 @@ std::string why_not_visible(const CellState& state, const Pending& pending) {
 
 void check_boundaries(const Model& model, Report& report) {
   const std::vector<Pending> entry = pending_of(model, model.entry), exit = pending_of(model, model.exit);
+  History history{model, false, {}, {}};
   for (uint32_t r = 0; r < model.resources.size(); ++r) {
     const ResourceNode& node = model.resources[r];
     const dsl::Lifetime lifetime = model.resource(r).lifetime;
@@ -197,7 +200,7 @@ void check_boundaries(const Model& model, Report& report) {
         if (left.stated != found.stated)
           report_boundary(model, r, c, left.stated ? "the entry state is missing" : "the exit state is missing", report);
         if (!left.stated || !found.stated) continue;
-        const std::string why = why_not_covered(state_from(left, 0), found);
+        const std::string why = why_not_covered(state_from(left, history), found);
         if (!why.empty()) report_boundary(model, r, c, "the next entry does not cover the exit state: " + why, report);
       }
   }

@@ -20,7 +20,7 @@ std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNo
 Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect);
 
 // A cell as it is when a frame starts in this state.
-CellState state_from(const Pending& pending, uint32_t seen);
+CellState state_from(const Pending& pending, History& history);
 // Empty if every barrier sequence that is right after `pending` is right after `state`; else the reason it is not.
 std::string why_not_covered(const CellState& state, const Pending& pending);
 // Writes the state may not leave behind: what `pending` reads must see them. Empty if all are visible.

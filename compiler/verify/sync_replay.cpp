@@ -16,7 +16,7 @@ struct Replay {
   SyncResult result;
   uint32_t frame = 0;
 
-  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}} {}
+  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}, {}} {}
 
   uint32_t physical(uint32_t resource, uint32_t age, uint32_t cell) const {
     const uint32_t copies = model.resources[resource].copies;
@@ -105,7 +105,7 @@ void check_after_writes(Replay& replay, const Point& at, const CellState& state,
 void check_after_reads(Replay& replay, const Point& at, const CellState& state, uint64_t order, uint32_t stage, uint32_t access) {
   for (const ReadRecord& read : state.reads) {
     if (order != 0 && read.order == order) continue;
-    if (read.reach.stages & stage_bit(stage))
+    if (read.reach().stages & stage_bit(stage))
       replay.require(proof_of_reach(read, stage));
     else
       report_read(replay, at, read, stage, access);
@@ -164,14 +164,14 @@ void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& 
     // A later access that waits for this pass's write in a stage waits for its read there as well.
     if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;
     std::erase_if(state.reads, [&](const ReadRecord& read) { return read.stage == s; });
-    state.reads.push_back({s, pass, replay.now(), use.order, {}});
+    state.reads.push_back(make_read(replay.history, s, pass, use.order));
   }
 }
 
 void record_writes(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
   const bool commuting = use.order != 0 && !(use.order & kRenderingOrder);
   if (!use.may_skip && !commuting) {
-    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || replay.now() != read.seen; });
+    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || replay.now() != read.fate->born; });
     state.writes.clear();
   }
   for (uint32_t s = 0; s < kStageCount; ++s)
@@ -259,7 +259,7 @@ void apply_to_cell(Replay& replay, const GroupNode& group, uint32_t cell, const 
   for (const uint32_t id : local)
     if (replay.model.scopes[id].kind == ScopeKind::image) check_old_layout(replay, replay.model.scopes[id], cell, state);
   if (transition == local.end()) {
-    apply_group(replay.history, group, local, state);
+    apply_to_writes(replay.history, group, local, state);
     return;
   }
   const Scope& scope = replay.model.scopes[*transition];
@@ -325,7 +325,7 @@ void enter(Replay& replay, const std::vector<Pending>& entry) {
     const ResourceNode& node = replay.model.resources[r];
     for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
       // The host has waited for everything before it uses a read-back buffer again.
-      replay.cells[i] = lifetime == dsl::Lifetime::readback ? CellState{} : state_from(entry[i], replay.now());
+      replay.cells[i] = lifetime == dsl::Lifetime::readback ? CellState{} : state_from(entry[i], replay.history);
       for (WriteRecord& write : replay.cells[i].writes) write.pass = kNone;
     }
   }
@@ -344,10 +344,12 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
 }
 
 // What the exit state promises rests on these proofs.
+const Reach& reach_of(const ReadRecord& read) { return read.reach(); }
+const Reach& reach_of(const WriteRecord& write) { return write.reach; }
 template <class Record>
 void require_reach(Replay& replay, const Record& record, StageSet stages) {
   for (uint32_t s = 0; s < kStageCount; ++s)
-    if (record.reach.stages & stages & stage_bit(s)) replay.require(proof_of_reach(record, s));
+    if (reach_of(record).stages & stages & stage_bit(s)) replay.require(proof_of_reach(record, s));
 }
 
 void require_all(Replay& replay, const CellState& state, const Pending& pending) {
@@ -439,7 +441,7 @@ void keep_last_states(Replay& replay, uint32_t step) {
     const ResourceNode& node = replay.model.resources[use.resource];
     for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
       advance(replay.history, replay.cells[i]);
-      replay.result.last[i] = replay.cells[i];
+      replay.result.last[i] = frozen(replay.cells[i]);
     }
   }
 }

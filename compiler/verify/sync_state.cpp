@@ -227,6 +227,21 @@ void drop_root(WriteRecord& write) {
   std::erase_if(write.proofs, [](const VisibleTo& v) { return v.proof.empty(); });
 }
 
+// At the beginning all proofs go through the one barrier: what they have in common stays in all that follow.
+void grow_root(Reach& reach) {
+  Alternatives common;
+  for (const auto& [stage, proof] : reach.proofs) common.add(proof);
+  if (common.proof) reach.root = unite(reach.root, *common.proof);
+  drop_root(reach);
+}
+void grow_root(WriteRecord& write) {
+  Alternatives common;
+  for (const auto& [stage, proof] : write.reach.proofs) common.add(proof);
+  for (const VisibleTo& v : write.proofs) common.add(v.proof);
+  if (common.proof) write.reach.root = unite(write.reach.root, *common.proof);
+  drop_root(write);
+}
+
 // Where one barrier of the group alone makes the write available for the first time, all later proofs grow from it.
 bool is_rooted(const History& history, const std::vector<uint32_t>& covering, WriteRecord& write) {
   const auto makes = [&](uint32_t id) { return makes_available(history.model.scopes[id], write); };
@@ -256,11 +271,11 @@ void apply(const History& history, const GroupNode& group, const std::vector<uin
     for (const ExecutionClass& execution : group.classes)
       if (!execution.sole || !is_local(local, execution.scope)) chain(history, execution, write.reach, 0, updates);
   commit(history, updates, write);
-  if (rooted) drop_root(write);
+  if (rooted) grow_root(write);
 }
 
 // Where one barrier of the group alone waits for the read for the first time, all later proofs grow from it.
-bool is_rooted(const History& history, const GroupNode& group, ReadRecord& read) {
+bool is_rooted(const History& history, const GroupNode& group, ReadFate& read) {
   const StageSet own = stage_bit(read.stage);
   if (!(own & group.src_earlier)) return false;
   const auto waits = [&](const ExecutionClass& execution) { return (history.model.scopes[execution.scope].src_earlier & own) != 0; };
@@ -274,7 +289,7 @@ bool is_rooted(const History& history, const GroupNode& group, ReadRecord& read)
   return true;
 }
 
-void apply(const History& history, const GroupNode& group, ReadRecord& read) {
+void apply(const History& history, const GroupNode& group, ReadFate& read) {
   const StageSet own = stage_bit(read.stage);
   const bool rooted = history.proofs && is_rooted(history, group, read);
   if (!concerns(group, read.reach, own)) return;
@@ -282,20 +297,32 @@ void apply(const History& history, const GroupNode& group, ReadRecord& read) {
   for (const ExecutionClass& execution : group.classes) chain(history, execution, read.reach, own, updates);
   if (!history.proofs) return extend_plain(read.reach, updates.reach);
   for (const NewReach& next : updates.new_reach) merge(read.reach, next);
-  if (rooted) drop_root(read.reach);
+  if (rooted) grow_root(read.reach);
+}
+
+void advance(const History& history, ReadFate& fate) {
+  for (; fate.seen < history.groups.size(); ++fate.seen) {
+    if (fate.reach.settled == kAllStages && fate.reach.root.empty()) {
+      fate.seen = static_cast<uint32_t>(history.groups.size());
+      return;
+    }
+    apply(history, history.model.groups[history.groups[fate.seen]], fate);
+  }
 }
 
 }  // namespace
 
-Proof proof_of_reach(const ReadRecord& read, uint32_t stage) { return unite(read.reach.root, relative_proof(read.reach, stage)); }
+Proof proof_of_reach(const ReadRecord& read, uint32_t stage) { return unite(read.reach().root, relative_proof(read.reach(), stage)); }
 Proof proof_of_reach(const WriteRecord& write, uint32_t stage) { return unite(write.reach.root, relative_proof(write.reach, stage)); }
-Proof proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access) { return unite(write.reach.root, relative_proof(write, stage, access)); }
+Proof proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access) {
+  return unite(write.reach.root, relative_proof(write, stage, access));
+}
 
 bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Proof& proof) {
-  if (!((read.reach.stages | stage_bit(read.stage)) & scope.src_earlier)) return false;
+  if (!((read.reach().stages | stage_bit(read.stage)) & scope.src_earlier)) return false;
   Alternatives alternatives;
-  add_chained_sources(scope, scope_id, read.reach, alternatives);
-  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, read.reach.root);
+  add_chained_sources(scope, scope_id, read.reach(), alternatives);
+  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, read.reach().root);
   add_meeting_sources(scope, scope_id, read.stage, kNoProof, alternatives);
   proof = std::move(*alternatives.proof);
   return true;
@@ -311,16 +338,7 @@ bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, 
   return true;
 }
 
-void advance(const History& history, ReadRecord& read) {
-  for (; read.seen < history.groups.size(); ++read.seen) {
-    if (read.reach.settled == kAllStages && read.reach.root.empty()) {
-      read.seen = static_cast<uint32_t>(history.groups.size());
-      return;
-    }
-    apply(history, history.model.groups[history.groups[read.seen]], read);
-  }
-}
-
+namespace {
 void advance(const History& history, WriteRecord& write) {
   for (; write.seen < history.groups.size(); ++write.seen) {
     const GroupNode& group = history.model.groups[history.groups[write.seen]];
@@ -329,20 +347,31 @@ void advance(const History& history, WriteRecord& write) {
   }
 }
 
+}  // namespace
+
 void advance(const History& history, CellState& state) {
-  for (ReadRecord& read : state.reads) advance(history, read);
+  for (ReadRecord& read : state.reads) advance(history, *read.fate);
   for (WriteRecord& write : state.writes) advance(history, write);
 }
 
-void apply_group(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state) {
-  for (ReadRecord& read : state.reads) {
-    apply(history, group, read);
-    ++read.seen;
-  }
+void apply_to_writes(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state) {
   for (WriteRecord& write : state.writes) {
     apply(history, group, local, write);
     ++write.seen;
   }
+}
+
+ReadRecord make_read(History& history, uint32_t stage, uint32_t pass, uint64_t order) {
+  const auto now = static_cast<uint32_t>(history.groups.size());
+  std::shared_ptr<ReadFate>& newest = history.newest[stage];
+  if (!newest || newest->born != now) newest = std::make_shared<ReadFate>(ReadFate{stage, now, now, {}});
+  return {stage, pass, order, newest};
+}
+
+CellState frozen(const CellState& state) {
+  CellState copy = state;
+  for (ReadRecord& read : copy.reads) read.fate = std::make_shared<ReadFate>(*read.fate);
+  return copy;
 }
 
 WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id) {
@@ -361,7 +390,7 @@ WriteRecord transition_record(const History& history, const Scope& scope, uint32
   commit(history, updates, write);
   if (history.proofs) {
     write.reach.root = {atom_of(scope_id, AtomField::whole)};
-    drop_root(write);
+    grow_root(write);
   }
   return write;
 }

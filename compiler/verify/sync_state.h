@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "compiler/verify/model.h"
@@ -35,11 +36,17 @@ struct Reach {
   std::vector<std::pair<uint32_t, Proof>> proofs;  // of stages that are not settled
 };
 
+// Reads in one stage between the same two groups share their fate.
+struct ReadFate {
+  uint32_t stage = 0;
+  uint32_t born = 0, seen = 0;  // groups executed before the reads, and taken into account
+  Reach reach;
+};
 struct ReadRecord {
   uint32_t stage = 0, pass = 0;  // pass kNone: before the frame
-  uint32_t seen = 0;             // groups taken into account
   uint64_t order = 0;            // accesses that share a number do not wait for each other
-  Reach reach;
+  std::shared_ptr<ReadFate> fate;
+  const Reach& reach() const { return fate->reach; }
 };
 
 struct VisibleTo {
@@ -54,7 +61,7 @@ struct WriteRecord {
   uint32_t seen = 0;
   bool available = false;
   bool read_since = false;  // by a pass that always runs: who waits for it comes after this write, and sees it
-  Reach reach;  // from where it became available
+  Reach reach;              // from where it became available
   AccessSet visible[kStageCount] = {};
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
 };
@@ -71,16 +78,18 @@ struct History {
   const Model& model;
   bool proofs = false;
   std::vector<uint32_t> groups;  // in execution order, indices of Model::groups
+  std::shared_ptr<ReadFate> newest[kStageCount];
 };
+ReadRecord make_read(History& history, uint32_t stage, uint32_t pass, uint64_t order);
+// As it is now, whatever comes.
+CellState frozen(const CellState& state);
 
-// Takes all groups in `history` into account that came since the record was last looked at, without effects that are local to ranges.
-void advance(const History& history, ReadRecord& read);
-void advance(const History& history, WriteRecord& write);
+// Takes all groups in `history` into account that came since the state was last looked at, without effects that are local to ranges.
 void advance(const History& history, CellState& state);
 
-// Applies one group to a cell on which it has local effects through `local` scopes (no transitions among them).
-// Everything before must have been taken into account; `seen` moves past the group.
-void apply_group(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state);
+// Applies one group to the writes of a cell on which it has local effects through `local` scopes (no transitions among them), before it is
+// part of the history. Everything before must have been taken into account.
+void apply_to_writes(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state);
 
 // How `scope` sees a record as its source. `proof` receives what the fact needs of earlier barriers and of the source masks.
 bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Proof& proof);
