@@ -38,7 +38,10 @@ Status prepare_folder(const std::string& folder) {
 }
 
 // One picture: a camera and what to show of it.
-struct Shot { const NamedCamera* camera = nullptr; uint32_t view = 0; };
+struct Shot {
+  const NamedCamera* camera = nullptr;
+  uint32_t view = 0;
+};
 
 Result<std::vector<Shot>> choose_shots(const Scene& scene, const DemoOptions& options) {
   std::vector<const NamedCamera*> cameras;
@@ -71,7 +74,9 @@ FrameSettings settings_for(const DemoOptions& options, const Shot& shot, uint32_
   return settings;
 }
 
-double seconds_since(std::chrono::steady_clock::time_point start) { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
 
 // Renders until history and exposure have settled, then writes. A debug view needs one frame only.
 Status take(Renderer& renderer, const Scene& scene, const DemoOptions& options, const Shot& shot) {

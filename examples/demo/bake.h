@@ -8,7 +8,9 @@
 
 namespace rg::demo {
 
-struct Box { glm::vec3 low{0}, high{0}; };
+struct Box {
+  glm::vec3 low{0}, high{0};
+};
 
 // The share of a cosine-weighted hemisphere about `normal` that no box hides, in [0, 1]. A little light gets everywhere: never below `least`.
 float sky_share(glm::vec3 position, glm::vec3 normal, std::span<const Box> boxes, float least = 0.015f);

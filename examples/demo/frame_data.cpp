@@ -10,7 +10,9 @@ namespace rg::demo {
 namespace {
 
 constexpr float kFrameSeconds = 1.0f / 30;
-struct Times { float now = 0, before = 0; };  // seconds, of this frame and of the last one
+struct Times {
+  float now = 0, before = 0;
+};  // seconds, of this frame and of the last one
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
@@ -93,7 +95,9 @@ std::vector<uint32_t> sort_glass(const Scene& scene, const std::vector<frame::In
   std::vector<uint32_t> order;
   for (uint32_t i = 0; i < instances.size(); ++i)
     if (scene.instances[i].glass) order.push_back(i);
-  const auto distance = [&](uint32_t i) { return glm::distance(eye, glm::vec3(instances[i].center.x, instances[i].center.y, instances[i].center.z)); };
+  const auto distance = [&](uint32_t i) {
+    return glm::distance(eye, glm::vec3(instances[i].center.x, instances[i].center.y, instances[i].center.z));
+  };
   std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return distance(a) > distance(b); });
   return order;
 }
@@ -132,8 +136,8 @@ frame::View make_view(const Scene& scene, const NamedCamera& camera, const Frame
   return view;
 }
 
-constexpr std::string_view kViews[] = {"final", "lights", "albedo", "normal", "depth", "roughness", "metallic", "diffuse",
-                                       "specular", "emissive", "overflow", "zbin", "occlusion", "velocity", "forward"};
+constexpr std::string_view kViews[] = {"final",    "lights",   "albedo",   "normal", "depth",     "roughness", "metallic", "diffuse",
+                                       "specular", "emissive", "overflow", "zbin",   "occlusion", "velocity",  "forward"};
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace

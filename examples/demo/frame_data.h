@@ -29,7 +29,7 @@ struct FrameData {
   std::vector<frame::Light> lights;        // sorted by nearest
   std::vector<frame::Instance> instances;  // in the scene's order
   std::vector<PropPlacement> props;
-  std::vector<uint32_t> glass;             // instances, farthest first
+  std::vector<uint32_t> glass;  // instances, farthest first
   frame::HologramDraw hologram;
 };
 

@@ -20,7 +20,10 @@ constexpr size_t kMaxInstances = 1024, kMaxLights = 512, kMaxDepth = 256;
 constexpr size_t kMaxVertices = size_t{1} << 22;  // a storage buffer of 192 MiB
 
 // Which scene mesh a primitive became, and with what material.
-struct Part { uint32_t mesh = 0; int material = -1; };
+struct Part {
+  uint32_t mesh = 0;
+  int material = -1;
+};
 using MeshParts = std::vector<std::vector<Part>>;  // by glTF mesh
 
 std::vector<uint32_t> triangles(const tinygltf::Primitive& primitive, std::vector<uint32_t> list) {
@@ -31,9 +34,12 @@ std::vector<uint32_t> triangles(const tinygltf::Primitive& primitive, std::vecto
   std::vector<uint32_t> out;
   const bool fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
   for (size_t i = 2; i < list.size(); ++i) {
-    if (fan) out.insert(out.end(), {list[0], list[i - 1], list[i]});
-    else if (i % 2 == 0) out.insert(out.end(), {list[i - 2], list[i - 1], list[i]});
-    else out.insert(out.end(), {list[i - 1], list[i - 2], list[i]});
+    if (fan)
+      out.insert(out.end(), {list[0], list[i - 1], list[i]});
+    else if (i % 2 == 0)
+      out.insert(out.end(), {list[i - 2], list[i - 1], list[i]});
+    else
+      out.insert(out.end(), {list[i - 1], list[i - 2], list[i]});
   }
   return out;
 }
@@ -76,12 +82,14 @@ void make_tangents(MeshData& data) {
   }
 }
 
-std::vector<float> read_attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const char* name, int columns, size_t count, const std::string& user) {
+std::vector<float> read_attribute(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const char* name, int columns, size_t count,
+                                  const std::string& user) {
   const auto found = primitive.attributes.find(name);
   if (found == primitive.attributes.end()) return {};
   std::vector<float> values = read_floats(model, found->second, columns, user + " " + name);
   if (values.size() != count * static_cast<size_t>(columns))
-    throw GltfError(user + ": " + name + " has " + std::to_string(values.size() / static_cast<size_t>(columns)) + " elements for " + std::to_string(count) + " positions");
+    throw GltfError(user + ": " + name + " has " + std::to_string(values.size() / static_cast<size_t>(columns)) + " elements for " +
+                    std::to_string(count) + " positions");
   return values;
 }
 
@@ -92,7 +100,8 @@ MeshData read_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
   if (position == primitive.attributes.end()) throw GltfError(user + ": has no positions");
   const std::vector<float> positions = read_floats(model, position->second, 3, user + " POSITION");
   const size_t count = positions.size() / 3;
-  const std::vector<float> normals = read_attribute(model, primitive, "NORMAL", 3, count, user), uvs = read_attribute(model, primitive, "TEXCOORD_0", 2, count, user);
+  const std::vector<float> normals = read_attribute(model, primitive, "NORMAL", 3, count, user),
+                           uvs = read_attribute(model, primitive, "TEXCOORD_0", 2, count, user);
   const std::vector<float> tangents = read_attribute(model, primitive, "TANGENT", 4, count, user);
   MeshData data;
   data.vertices.resize(count);
@@ -104,8 +113,10 @@ MeshData read_primitive(const tinygltf::Model& model, const tinygltf::Primitive&
     if (!tangents.empty()) v.tangent = {tangents[4 * i], tangents[4 * i + 1], tangents[4 * i + 2], tangents[4 * i + 3] < 0 ? -1 : 1};
   }
   std::vector<uint32_t> indices;
-  if (primitive.indices >= 0) indices = read_indices(model, primitive.indices, count, user);
-  else for (uint32_t i = 0; i < count; ++i) indices.push_back(i);
+  if (primitive.indices >= 0)
+    indices = read_indices(model, primitive.indices, count, user);
+  else
+    for (uint32_t i = 0; i < count; ++i) indices.push_back(i);
   data.indices = triangles(primitive, std::move(indices));
   if (normals.empty()) make_flat(data);
   if (tangents.empty() || normals.empty()) make_tangents(data);
@@ -125,7 +136,8 @@ MeshParts convert_meshes(const tinygltf::Model& model, Scene& scene) {
       if (!is_drawable(primitive)) continue;  // points and lines
       MeshData data = read_primitive(model, primitive, user);
       if (data.indices.empty()) continue;
-      if (scene.vertices.size() + data.vertices.size() > kMaxVertices) throw GltfError(user + ": more than " + std::to_string(kMaxVertices) + " vertices in all");
+      if (scene.vertices.size() + data.vertices.size() > kMaxVertices)
+        throw GltfError(user + ": more than " + std::to_string(kMaxVertices) + " vertices in all");
       parts[m].push_back({add_mesh(scene, mesh.name.empty() ? user : mesh.name, data), primitive.material});
     }
   }
@@ -142,7 +154,8 @@ glm::mat4 local_transform(const tinygltf::Node& node) {
   if (node.translation.size() == 3) m = glm::translate(m, vector(node.translation));
   if (node.rotation.size() == 4) {
     const auto& r = node.rotation;
-    m *= glm::mat4_cast(glm::normalize(glm::quat(static_cast<float>(r[3]), static_cast<float>(r[0]), static_cast<float>(r[1]), static_cast<float>(r[2]))));
+    m *= glm::mat4_cast(
+        glm::normalize(glm::quat(static_cast<float>(r[3]), static_cast<float>(r[0]), static_cast<float>(r[1]), static_cast<float>(r[2]))));
   }
   return node.scale.size() == 3 ? glm::scale(m, vector(node.scale)) : m;
 }
@@ -235,7 +248,8 @@ void fit(Scene& scene) {
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const glm::vec3 center = instance.transform * glm::vec4(mesh.center, 1);
-    const float stretch = std::max({glm::length(glm::vec3(instance.transform[0])), glm::length(glm::vec3(instance.transform[1])), glm::length(glm::vec3(instance.transform[2]))});
+    const float stretch = std::max({glm::length(glm::vec3(instance.transform[0])), glm::length(glm::vec3(instance.transform[1])),
+                                    glm::length(glm::vec3(instance.transform[2]))});
     low = glm::min(low, center - stretch * mesh.radius);
     high = glm::max(high, center + stretch * mesh.radius);
   }
@@ -255,14 +269,16 @@ void fit(Scene& scene) {
   const glm::vec3 center = fitting * glm::vec4(middle, 1);
   scene.sun.center = center;
   scene.sun.radius = 8;
-  const NamedCamera views[] = {{"front", center + glm::vec3(4.5f, 3.0f, 8.5f), center, 0.9f, 0}, {"side", center + glm::vec3(-9.0f, 2.0f, 2.5f), center, 0.9f, 0}, {"above", center + glm::vec3(2, 11, 4), center, 0.9f, 0}};
+  const NamedCamera views[] = {{"front", center + glm::vec3(4.5f, 3.0f, 8.5f), center, 0.9f, 0},
+                               {"side", center + glm::vec3(-9.0f, 2.0f, 2.5f), center, 0.9f, 0},
+                               {"above", center + glm::vec3(2, 11, 4), center, 0.9f, 0}};
   scene.cameras.insert(scene.cameras.end(), std::begin(views), std::end(views));
 }
 
 void light_by_default(Scene& scene) {
   scene.sun.direction = glm::normalize(glm::vec3(0.45f, 0.75f, 0.5f));
   scene.sun.color = glm::vec3(2.6f, 2.4f, 2.1f);
-  scene.sun.ambient = {0.30f, 0.38f, 0.52f};
+  scene.sun.ambient = {0.13f, 0.165f, 0.23f};
 }
 void add_lamps(Scene& scene) {
   if (!scene.lights.empty()) return;
@@ -276,7 +292,8 @@ void add_lamps(Scene& scene) {
   }
 }
 
-bool decode_image(tinygltf::Image* image, const int index, std::string*, std::string* warning, int width, int height, const unsigned char* bytes, int size, void* user) {
+bool decode_image(tinygltf::Image* image, const int index, std::string*, std::string* warning, int width, int height, const unsigned char* bytes,
+                  int size, void* user) {
   std::string error;  // a broken image is an error only if a material uses it
   if (!tinygltf::LoadImageData(image, index, &error, warning, width, height, bytes, size, user)) image->image.clear();
   return true;
@@ -298,7 +315,8 @@ tinygltf::Model parse(const std::filesystem::path& path) {
   char magic[4] = {};
   std::ifstream(path, std::ios::binary).read(magic, 4);
   const bool binary = std::string_view(magic, 4) == "glTF";
-  const bool good = binary ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string()) : loader.LoadASCIIFromFile(&model, &error, &warning, path.string());
+  const bool good =
+      binary ? loader.LoadBinaryFromFile(&model, &error, &warning, path.string()) : loader.LoadASCIIFromFile(&model, &error, &warning, path.string());
   if (!good) throw GltfError("file: " + (error.empty() ? "is no glTF 2.0" : first_line(error)));
   return model;
 }

@@ -6,7 +6,10 @@
 namespace rg::demo {
 namespace {
 
-struct Picture { int width = 0, height = 0, channels = 0; const unsigned char* texels = nullptr; };
+struct Picture {
+  int width = 0, height = 0, channels = 0;
+  const unsigned char* texels = nullptr;
+};
 
 // The image behind a texture reference; nothing where there is none.
 Picture find_picture(const tinygltf::Model& model, int texture, int uv_set, const std::string& user) {
@@ -23,7 +26,8 @@ Picture find_picture(const tinygltf::Model& model, int texture, int uv_set, cons
 
 uint8_t fetch(const Picture& p, int x, int y, int channel) {
   if (channel >= p.channels) return p.channels == 1 ? p.texels[y * p.width + x] : 255;
-  return p.texels[(static_cast<size_t>(y) * static_cast<size_t>(p.width) + static_cast<size_t>(x)) * static_cast<size_t>(p.channels) + static_cast<size_t>(channel)];
+  return p.texels[(static_cast<size_t>(y) * static_cast<size_t>(p.width) + static_cast<size_t>(x)) * static_cast<size_t>(p.channels) +
+                  static_cast<size_t>(channel)];
 }
 
 // The mean of the source texels under a texel of the layer.
@@ -62,7 +66,9 @@ uint32_t add_layer(const Picture& base, const Picture& normal, const Picture& me
   return static_cast<uint32_t>(scene.textures.size() - 1);
 }
 
-float component(const std::vector<double>& values, size_t i, float otherwise) { return i < values.size() ? static_cast<float>(values[i]) : otherwise; }
+float component(const std::vector<double>& values, size_t i, float otherwise) {
+  return i < values.size() ? static_cast<float>(values[i]) : otherwise;
+}
 
 float emissive_strength(const tinygltf::Material& material) {
   const auto found = material.extensions.find("KHR_materials_emissive_strength");
@@ -91,7 +97,8 @@ Material convert(const tinygltf::Model& model, const tinygltf::Material& from, c
 
 void convert_materials(const tinygltf::Model& model, Scene& scene) {
   scene.textures.push_back(flat_layer());
-  for (size_t i = 0; i < model.materials.size(); ++i) scene.materials.push_back(convert(model, model.materials[i], "material " + std::to_string(i), scene));
+  for (size_t i = 0; i < model.materials.size(); ++i)
+    scene.materials.push_back(convert(model, model.materials[i], "material " + std::to_string(i), scene));
   Material plain;
   plain.name = "default";
   plain.base_color = glm::vec4(0.8f, 0.8f, 0.8f, 1);
@@ -101,7 +108,8 @@ void convert_materials(const tinygltf::Model& model, Scene& scene) {
 }
 
 bool is_blended(const tinygltf::Model& model, int material) {
-  return material >= 0 && static_cast<size_t>(material) < model.materials.size() && model.materials[static_cast<size_t>(material)].alphaMode == "BLEND";
+  return material >= 0 && static_cast<size_t>(material) < model.materials.size() &&
+         model.materials[static_cast<size_t>(material)].alphaMode == "BLEND";
 }
 
 }  // namespace rg::demo

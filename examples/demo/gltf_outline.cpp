@@ -31,9 +31,11 @@ std::string json_text(const std::filesystem::path& path) {
 }
 
 // Singular of each array that something may refer to.
-struct Kind { const char *array, *name; };
-constexpr Kind kKinds[] = {{"buffers", "buffer"}, {"bufferViews", "buffer view"}, {"accessors", "accessor"}, {"images", "image"},
-                           {"textures", "texture"}, {"materials", "material"}, {"meshes", "mesh"}, {"nodes", "node"}};
+struct Kind {
+  const char *array, *name;
+};
+constexpr Kind kKinds[] = {{"buffers", "buffer"},   {"bufferViews", "buffer view"}, {"accessors", "accessor"}, {"images", "image"},
+                           {"textures", "texture"}, {"materials", "material"},      {"meshes", "mesh"},        {"nodes", "node"}};
 
 size_t count(const json& root, const char* array) { return root.contains(array) && root[array].is_array() ? root[array].size() : 0; }
 
@@ -67,7 +69,8 @@ void check_primitives(const json& root, const json& mesh, const std::string& sel
     check_reference(root, primitive, name, "indices", "accessors", "accessor");
     check_reference(root, primitive, name, "material", "materials", "material");
     if (!primitive.contains("attributes") || !primitive["attributes"].is_object()) continue;
-    for (const auto& [key, value] : primitive["attributes"].items()) check_reference(root, primitive["attributes"], name, key.c_str(), "accessors", "accessor");
+    for (const auto& [key, value] : primitive["attributes"].items())
+      check_reference(root, primitive["attributes"], name, key.c_str(), "accessors", "accessor");
   }
 }
 
@@ -80,7 +83,8 @@ void check_buffer_file(const json& buffer, const std::string& self, const std::f
 }
 
 void check_extensions(const json& root) {
-  static const std::set<std::string> known = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_materials_specular", "KHR_materials_ior"};
+  static const std::set<std::string> known = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit",
+                                              "KHR_materials_specular", "KHR_materials_ior"};
   if (!root.contains("extensionsRequired") || !root["extensionsRequired"].is_array()) return;
   for (const json& extension : root["extensionsRequired"])
     if (!extension.is_string() || !known.contains(extension.get<std::string>()))

@@ -20,8 +20,9 @@ const tinygltf::BufferView& checked_view(const tinygltf::Model& model, int index
   const tinygltf::BufferView& view = element(model.bufferViews, index, "buffer view", user);
   const tinygltf::Buffer& buffer = element(model.buffers, view.buffer, "buffer", named("buffer view", index));
   if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset)
-    fail("buffer view", index, "bytes " + std::to_string(view.byteOffset) + " to " + std::to_string(view.byteOffset + view.byteLength) + " exceed buffer " +
-                                   std::to_string(view.buffer) + " of " + std::to_string(buffer.data.size()) + " bytes");
+    fail("buffer view", index,
+         "bytes " + std::to_string(view.byteOffset) + " to " + std::to_string(view.byteOffset + view.byteLength) + " exceed buffer " +
+             std::to_string(view.buffer) + " of " + std::to_string(buffer.data.size()) + " bytes");
   return view;
 }
 
@@ -35,14 +36,18 @@ Elements open_accessor(const tinygltf::Model& model, int index, const std::strin
   const tinygltf::BufferView& view = checked_view(model, accessor.bufferView, named("accessor", index));
   const size_t size = static_cast<size_t>(component_bytes) * static_cast<size_t>(components);
   const size_t stride = view.byteStride != 0 ? view.byteStride : size;
-  if (stride < size) fail("accessor", index, "its elements of " + std::to_string(size) + " bytes are wider than the stride of " + std::to_string(stride));
+  if (stride < size)
+    fail("accessor", index, "its elements of " + std::to_string(size) + " bytes are wider than the stride of " + std::to_string(stride));
   const size_t room = view.byteLength;
-  const bool fits = accessor.byteOffset <= room && size <= room - accessor.byteOffset && (accessor.count - 1) <= (room - accessor.byteOffset - size) / stride;
+  const bool fits =
+      accessor.byteOffset <= room && size <= room - accessor.byteOffset && (accessor.count - 1) <= (room - accessor.byteOffset - size) / stride;
   if (!fits)
-    fail("accessor", index, std::to_string(accessor.count) + " elements from byte " + std::to_string(accessor.byteOffset) + " on do not fit buffer view " +
-                                std::to_string(accessor.bufferView) + " of " + std::to_string(room) + " bytes");
+    fail("accessor", index,
+         std::to_string(accessor.count) + " elements from byte " + std::to_string(accessor.byteOffset) + " on do not fit buffer view " +
+             std::to_string(accessor.bufferView) + " of " + std::to_string(room) + " bytes");
   const tinygltf::Buffer& buffer = model.buffers[static_cast<size_t>(view.buffer)];
-  return {buffer.data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride, accessor.componentType, components, accessor.normalized};
+  return {
+      buffer.data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride, accessor.componentType, components, accessor.normalized};
 }
 
 template <class T>
@@ -54,12 +59,18 @@ T load(const unsigned char* at) {
 
 float read_component(const unsigned char* at, int type, int index) {
   switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return load<float>(at + 4 * index);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return static_cast<float>(at[index]) / 255.0f;
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return static_cast<float>(load<uint16_t>(at + 2 * index)) / 65535.0f;
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return std::max(static_cast<float>(static_cast<int8_t>(at[index])) / 127.0f, -1.0f);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return std::max(static_cast<float>(load<int16_t>(at + 2 * index)) / 32767.0f, -1.0f);
-    default: return 0;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return load<float>(at + 4 * index);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return static_cast<float>(at[index]) / 255.0f;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return static_cast<float>(load<uint16_t>(at + 2 * index)) / 65535.0f;
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return std::max(static_cast<float>(static_cast<int8_t>(at[index])) / 127.0f, -1.0f);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return std::max(static_cast<float>(load<int16_t>(at + 2 * index)) / 32767.0f, -1.0f);
+    default:
+      return 0;
   }
 }
 
@@ -93,12 +104,16 @@ std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int c
 std::vector<uint32_t> read_indices(const tinygltf::Model& model, int accessor, size_t limit, const std::string& user) {
   const Elements elements = open_accessor(model, accessor, user);
   const int type = elements.component_type;
-  const bool known = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+  const bool known =
+      type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT || type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
   if (!known || elements.components != 1) fail("accessor", accessor, "cannot hold the indices of " + user);
   std::vector<uint32_t> out(elements.count);
   for (size_t i = 0; i < elements.count; ++i) {
     out[i] = read_index(elements.data + i * elements.stride, type);
-    if (out[i] >= limit) fail("accessor", accessor, "index " + std::to_string(out[i]) + " at position " + std::to_string(i) + " exceeds the " + std::to_string(limit) + " vertices of " + user);
+    if (out[i] >= limit)
+      fail(
+          "accessor", accessor,
+          "index " + std::to_string(out[i]) + " at position " + std::to_string(i) + " exceeds the " + std::to_string(limit) + " vertices of " + user);
   }
   return out;
 }

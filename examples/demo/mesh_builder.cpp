@@ -122,7 +122,8 @@ void add_arch(MeshData& mesh, const ArchShape& arch) {
   for (int i = 0; i < arch.segments; ++i) {
     const float a = kTau * 0.5f * static_cast<float>(i) / static_cast<float>(arch.segments);
     const float b = kTau * 0.5f * static_cast<float>(i + 1) / static_cast<float>(arch.segments);
-    const glm::vec3 ia = on_ring(radius, a), ib = on_ring(radius, b), oa = on_ring(radius + arch.thickness, a), ob = on_ring(radius + arch.thickness, b);
+    const glm::vec3 ia = on_ring(radius, a), ib = on_ring(radius, b), oa = on_ring(radius + arch.thickness, a),
+                    ob = on_ring(radius + arch.thickness, b);
     const glm::vec3 rim = out * 0.06f;
     add_face(mesh, {ia + half + rim, ib + half + rim, ob + half + rim, oa + half + rim}, 1);
     add_face(mesh, {oa - half - rim, ob - half - rim, ib - half - rim, ia - half - rim}, 1);

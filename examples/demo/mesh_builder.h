@@ -25,7 +25,7 @@ void add_slab(MeshData& mesh, glm::vec3 low, glm::vec3 high, float bevel, float 
 void add_lathe(MeshData& mesh, glm::vec3 base, std::span<const glm::vec2> profile, int segments, float flutes = 0);
 // Half a ring of depth `depth` along `along`'s normal in the plane, from one springing point to the other: an arch.
 struct ArchShape {
-  glm::vec3 left, right;  // springing points
+  glm::vec3 left, right;                          // springing points
   float thickness = 0.4f, depth = 0.6f, top = 2;  // of the ring; across the plane; height of the wall above the springing line
   int segments = 14;
 };
@@ -37,7 +37,11 @@ void add_tube(MeshData& mesh, std::span<const glm::vec3> points, float radius, i
 // Appends to the scene and returns the index of the new mesh.
 uint32_t add_mesh(Scene& scene, std::string name, const MeshData& data);
 
-struct PropPaint { glm::vec3 color{0.5f}; float roughness = 0.6f, metallic = 0, emission = 0; uint32_t part = 0; };
+struct PropPaint {
+  glm::vec3 color{0.5f};
+  float roughness = 0.6f, metallic = 0, emission = 0;
+  uint32_t part = 0;
+};
 struct PropData {
   std::vector<PropVertex> vertices;
   std::vector<uint32_t> indices;

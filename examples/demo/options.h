@@ -10,8 +10,8 @@ namespace rg::demo {
 struct DemoOptions {
   uint32_t width = 640, height = 360;
   uint32_t frames = 6;
-  std::string scene;   // a glTF file; empty: the plaza
-  std::string camera;  // empty: the scene's first
+  std::string scene;               // a glTF file; empty: the plaza
+  std::string camera;              // empty: the scene's first
   std::vector<std::string> views;  // what to show; empty: the final picture of every camera and all debug views of the first
   std::string out = "out";
   int device = -1;

@@ -46,7 +46,15 @@ float random_unit(uint32_t seed) {
 
 namespace {
 
-struct Row { const char* name; glm::vec3 color; float roughness, metallic, bump; uint32_t layer; float metres; glm::vec3 emissive; float opacity; };
+struct Row {
+  const char* name;
+  glm::vec3 color;
+  float roughness, metallic, bump;
+  uint32_t layer;
+  float metres;
+  glm::vec3 emissive;
+  float opacity;
+};
 
 constexpr Row kMaterials[] = {
     {"granite", {0.80f, 0.78f, 0.76f}, 0.95f, 0, 1, layer::granite, 2.0f, {}, 1},

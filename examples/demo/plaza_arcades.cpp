@@ -9,7 +9,13 @@ namespace {
 using glm::vec2, glm::vec3;
 
 // One row of columns with what stands on it: along `along` from `first`, `bays` bays; `inward` points into the court.
-struct Side { const char* name; vec3 first, along, inward; int bays; float floor; uint32_t wall; };
+struct Side {
+  const char* name;
+  vec3 first, along, inward;
+  int bays;
+  float floor;
+  uint32_t wall;
+};
 const Side kSides[] = {
     {"west", {-plan::court_x, 0, plan::court_z}, {0, 0, -1}, {1, 0, 0}, 5, plan::walk_floor, paint_of::ochre},
     {"north", {-plan::court_x, 0, -plan::court_z}, {1, 0, 0}, {0, 0, 1}, 7, plan::terrace, paint_of::plaster},
@@ -32,7 +38,8 @@ void build_column(Workshop& shop, vec3 foot, int number) {
   const float height = plan::spring - foot.y;
   place_box(shop, "plinth " + name, paint_of::sandstone, foot + vec3(-0.46f, 0, -0.46f), foot + vec3(0.46f, 0.18f, 0.46f), 0.46f);
   MeshData base, shaft, capital, abacus;
-  const vec2 torus[] = {{0.44f, 0.18f}, {0.46f, 0.23f}, {0.44f, 0.28f}, {0.37f, 0.31f}, {0.35f, 0.35f}, {0.40f, 0.39f}, {0.40f, 0.43f}, {0.33f, 0.46f}};
+  const vec2 torus[] = {{0.44f, 0.18f}, {0.46f, 0.23f}, {0.44f, 0.28f}, {0.37f, 0.31f},
+                        {0.35f, 0.35f}, {0.40f, 0.39f}, {0.40f, 0.43f}, {0.33f, 0.46f}};
   add_lathe(base, foot, torus, 32);
   place(shop, "base " + name, paint_of::marble, std::move(base));
   std::vector<vec2> line;
@@ -43,7 +50,8 @@ void build_column(Workshop& shop, vec3 foot, int number) {
   add_lathe(shaft, foot, line, 64, 16);
   place(shop, "shaft " + name, paint_of::marble, std::move(shaft));
   const float top = height - 0.52f;
-  const vec2 bell[] = {{0.285f, top}, {0.32f, top + 0.03f}, {0.32f, top + 0.07f}, {0.28f, top + 0.10f}, {0.29f, top + 0.18f}, {0.33f, top + 0.26f}, {0.40f, top + 0.33f}, {0.47f, top + 0.37f}, {0.44f, top + 0.41f}, {0.38f, top + 0.43f}};
+  const vec2 bell[] = {{0.285f, top},        {0.32f, top + 0.03f}, {0.32f, top + 0.07f}, {0.28f, top + 0.10f}, {0.29f, top + 0.18f},
+                       {0.33f, top + 0.26f}, {0.40f, top + 0.33f}, {0.47f, top + 0.37f}, {0.44f, top + 0.41f}, {0.38f, top + 0.43f}};
   add_lathe(capital, foot, bell, 40, 8);
   place(shop, "capital " + name, number % 2 == 0 ? paint_of::gold : paint_of::bronze, std::move(capital));
   add_box(abacus, foot + vec3(-0.46f, height - 0.10f, -0.46f), foot + vec3(0.46f, height, 0.46f), 0.46f);
@@ -97,15 +105,18 @@ void build_side(Workshop& shop, const Side& side) {
     build_window_bay(shop, side, i);
     side_box(shop, side, part(side, "walk", i), paint_of::mosaic, {a, -0.05f, -w}, {a + plan::bay, side.floor, 0.62f}, 0.8f);
     side_box(shop, side, part(side, "vault", i), paint_of::beams, {a, plan::upper - 0.12f, -w}, {a + plan::bay, plan::upper, -0.3f}, 0.8f);
-    side_box(shop, side, part(side, "beam", i), paint_of::planks, {a - 0.12f, plan::upper - 0.42f, -w}, {a + 0.12f, plan::upper - 0.12f, -0.3f}, 0.7f);
-    side_box(shop, side, part(side, "string course", i), paint_of::marble, {a, plan::upper - 0.12f, 0.3f}, {a + plan::bay, plan::upper + 0.12f, 0.5f});
+    side_box(shop, side, part(side, "beam", i), paint_of::planks, {a - 0.12f, plan::upper - 0.42f, -w}, {a + 0.12f, plan::upper - 0.12f, -0.3f},
+             0.7f);
+    side_box(shop, side, part(side, "string course", i), paint_of::marble, {a, plan::upper - 0.12f, 0.3f},
+             {a + plan::bay, plan::upper + 0.12f, 0.5f});
     side_box(shop, side, part(side, "cornice", i), paint_of::marble, {a, plan::eaves - 0.25f, 0.3f}, {a + plan::bay, plan::eaves + 0.1f, 0.62f});
     side_box(shop, side, part(side, "dentils", i), paint_of::sandstone, {a, plan::eaves - 0.42f, 0.3f}, {a + plan::bay, plan::eaves - 0.25f, 0.45f});
   }
   MeshData roof;
   const vec3 up(0, 1, 0), eaves = side.first + side.inward * 0.9f + up * plan::eaves, slope = -side.inward * 5.3f + up * 2.3f;
   const bool forward = glm::dot(glm::cross(side.along, slope), up) > 0;
-  add_grid(roof, forward ? eaves - side.along : eaves + side.along * (length + 1), side.along * ((length + 2) * (forward ? 1.0f : -1.0f)), slope, side.bays * 4, 5);
+  add_grid(roof, forward ? eaves - side.along : eaves + side.along * (length + 1), side.along * ((length + 2) * (forward ? 1.0f : -1.0f)), slope,
+           side.bays * 4, 5);
   place(shop, part(side, "roof", 0), paint_of::roof, std::move(roof));
 }
 
@@ -119,7 +130,8 @@ void build_back_walls(Workshop& shop) {
     const float at = -6.0f + 4.0f * static_cast<float>(i);
     place_box(shop, "west door " + std::to_string(i), paint_of::planks, {-x, plan::walk_floor, at - 0.7f}, {-x + 0.06f, 2.6f, at + 0.7f}, 0.5f);
     place_box(shop, "east niche " + std::to_string(i), paint_of::verdigris, {x - 0.08f, 0.9f, at - 0.6f}, {x, 2.9f, at + 0.6f}, 0.5f);
-    place_box(shop, "niche light " + std::to_string(i), i % 2 == 0 ? paint_of::glow_teal : paint_of::glow_rose, {x - 0.1f, 2.95f, at - 0.6f}, {x, 3.0f, at + 0.6f}, 2);
+    place_box(shop, "niche light " + std::to_string(i), i % 2 == 0 ? paint_of::glow_teal : paint_of::glow_rose, {x - 0.1f, 2.95f, at - 0.6f},
+              {x, 3.0f, at + 0.6f}, 2);
   }
 }
 

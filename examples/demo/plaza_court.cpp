@@ -63,15 +63,30 @@ void add_water(Workshop& shop, const char* name, float radius, float height) {
 
 void build_fountain(Workshop& shop) {
   place(shop, "basin", paint_of::marble,
-        turned({{3.35f, 0}, {3.35f, 0.12f}, {3.2f, 0.18f}, {3.12f, 0.5f}, {3.22f, 0.62f}, {3.36f, 0.66f}, {3.38f, 0.72f}, {3.3f, 0.78f}, {3.02f, 0.78f},
-                {2.94f, 0.72f}, {2.9f, 0.5f}, {2.86f, 0.14f}, {2.4f, 0.06f}, {0.7f, 0.05f}},
+        turned({{3.35f, 0},
+                {3.35f, 0.12f},
+                {3.2f, 0.18f},
+                {3.12f, 0.5f},
+                {3.22f, 0.62f},
+                {3.36f, 0.66f},
+                {3.38f, 0.72f},
+                {3.3f, 0.78f},
+                {3.02f, 0.78f},
+                {2.94f, 0.72f},
+                {2.9f, 0.5f},
+                {2.86f, 0.14f},
+                {2.4f, 0.06f},
+                {0.7f, 0.05f}},
                72, kFountain));
   place(shop, "pedestal", paint_of::dark_marble,
-        turned({{0.72f, 0.05f}, {0.72f, 0.28f}, {0.5f, 0.36f}, {0.3f, 0.5f}, {0.24f, 0.9f}, {0.3f, 1.2f}, {0.42f, 1.34f}, {0.34f, 1.46f}}, 32, kFountain));
+        turned({{0.72f, 0.05f}, {0.72f, 0.28f}, {0.5f, 0.36f}, {0.3f, 0.5f}, {0.24f, 0.9f}, {0.3f, 1.2f}, {0.42f, 1.34f}, {0.34f, 1.46f}}, 32,
+               kFountain));
   place(shop, "upper bowl", paint_of::marble,
-        turned({{0.2f, 1.4f}, {0.6f, 1.5f}, {1.05f, 1.68f}, {1.32f, 1.9f}, {1.38f, 2.0f}, {1.32f, 2.04f}, {1.2f, 1.98f}, {0.9f, 1.8f}, {0.3f, 1.72f}}, 48, kFountain));
+        turned({{0.2f, 1.4f}, {0.6f, 1.5f}, {1.05f, 1.68f}, {1.32f, 1.9f}, {1.38f, 2.0f}, {1.32f, 2.04f}, {1.2f, 1.98f}, {0.9f, 1.8f}, {0.3f, 1.72f}},
+               48, kFountain));
   place(shop, "finial", paint_of::gold,
-        turned({{0.2f, 1.72f}, {0.16f, 2.1f}, {0.26f, 2.22f}, {0.3f, 2.36f}, {0.2f, 2.5f}, {0.08f, 2.58f}, {0.07f, 2.72f}, {0.0f, 2.86f}}, 24, kFountain));
+        turned({{0.2f, 1.72f}, {0.16f, 2.1f}, {0.26f, 2.22f}, {0.3f, 2.36f}, {0.2f, 2.5f}, {0.08f, 2.58f}, {0.07f, 2.72f}, {0.0f, 2.86f}}, 24,
+               kFountain));
   for (int i = 0; i < 3; ++i) {  // rings that turn about the hologram
     MeshData ring;
     const float r = 1.05f + 0.13f * static_cast<float>(i);
@@ -92,14 +107,17 @@ void build_steps(Workshop& shop) {
     MeshData step;
     add_slab(step, {-5.2f, -0.1f, -plan::court_z - 0.2f}, {5.2f, top, front}, 0.025f);
     place(shop, "step " + std::to_string(i), paint_of::sandstone, std::move(step));
-    place_box(shop, "step light " + std::to_string(i), paint_of::glow_warm, {-5.1f, top - 0.05f, front + 0.001f}, {5.1f, top - 0.03f, front + 0.012f}, 6);
+    place_box(shop, "step light " + std::to_string(i), paint_of::glow_warm, {-5.1f, top - 0.05f, front + 0.001f}, {5.1f, top - 0.03f, front + 0.012f},
+              6);
   }
   for (const float side : {-1.0f, 1.0f}) {
     const float a = side * 5.2f, b = side * 5.8f;
-    place_box(shop, side < 0 ? "west cheek" : "east cheek", paint_of::marble, {std::min(a, b), 0, -plan::court_z}, {std::max(a, b), 1.1f, -plan::court_z + 2.0f}, 0.5f);
-    place(shop, "urn", paint_of::terracotta,
-          turned({{0.2f, 0}, {0.22f, 0.05f}, {0.1f, 0.14f}, {0.2f, 0.3f}, {0.34f, 0.55f}, {0.36f, 0.72f}, {0.26f, 0.86f}, {0.3f, 0.92f}, {0.2f, 0.9f}}, 28,
-                 {side * 5.5f, 1.1f, -plan::court_z + 1.6f}));
+    place_box(shop, side < 0 ? "west cheek" : "east cheek", paint_of::marble, {std::min(a, b), 0, -plan::court_z},
+              {std::max(a, b), 1.1f, -plan::court_z + 2.0f}, 0.5f);
+    place(
+        shop, "urn", paint_of::terracotta,
+        turned({{0.2f, 0}, {0.22f, 0.05f}, {0.1f, 0.14f}, {0.2f, 0.3f}, {0.34f, 0.55f}, {0.36f, 0.72f}, {0.26f, 0.86f}, {0.3f, 0.92f}, {0.2f, 0.9f}},
+               28, {side * 5.5f, 1.1f, -plan::court_z + 1.6f}));
   }
 }
 
@@ -110,7 +128,8 @@ MeshData foliage(vec3 center, float radius, uint32_t seed) {
   const vec3 shift(random_unit(seed) * 9, random_unit(seed + 1) * 9, random_unit(seed + 2) * 9);
   for (Vertex& v : ball.vertices) {
     const vec3 d = glm::normalize(v.position - center), p = d * 4.3f + shift;
-    const float bump = std::sin(p.x * 1.7f + std::sin(p.y * 2.1f)) * std::sin(p.y * 1.9f + std::sin(p.z * 1.6f)) * std::sin(p.z * 1.8f + std::sin(p.x * 1.3f));
+    const float bump =
+        std::sin(p.x * 1.7f + std::sin(p.y * 2.1f)) * std::sin(p.y * 1.9f + std::sin(p.z * 1.6f)) * std::sin(p.z * 1.8f + std::sin(p.x * 1.3f));
     v.position += d * (radius * 0.22f * bump);
     v.u *= 1.5f;
   }
@@ -127,16 +146,24 @@ void plant_tree(Workshop& shop, vec3 at, uint32_t seed) {
   place(shop, "trunk " + number, paint_of::beams, std::move(trunk));
   const vec3 crowns[] = {{0, 3.2f, 0}, {0.7f, 2.8f, 0.3f}, {-0.6f, 2.9f, 0.4f}, {0.1f, 2.8f, -0.7f}, {0, 0.85f, 0}};
   for (uint32_t i = 0; i < 5; ++i)
-    place(shop, "leaves " + number + "." + std::to_string(i), paint_of::leaves, foliage(at + crowns[i], i == 0 ? 0.95f : i == 4 ? 0.62f : 0.72f, seed * 16 + i));
+    place(shop, "leaves " + number + "." + std::to_string(i), paint_of::leaves,
+          foliage(at + crowns[i],
+                  i == 0   ? 0.95f
+                  : i == 4 ? 0.62f
+                           : 0.72f,
+                  seed * 16 + i));
 }
 
 void build_benches(Workshop& shop) {
   for (int i = 0; i < 6; ++i) {
     const float angle = 1.0471976f * static_cast<float>(i) + 0.5236f;
     const glm::mat4 turn = glm::rotate(glm::translate(glm::mat4(1), kFountain), angle, vec3(0, 1, 0));
-    const struct { vec3 low, high; uint32_t material; } parts[] = {{{-0.9f, 0.4f, 6.1f}, {0.9f, 0.5f, 6.6f}, paint_of::marble},
-                                                                   {{-0.8f, 0.02f, 6.2f}, {-0.6f, 0.4f, 6.5f}, paint_of::sandstone},
-                                                                   {{0.6f, 0.02f, 6.2f}, {0.8f, 0.4f, 6.5f}, paint_of::sandstone}};
+    const struct {
+      vec3 low, high;
+      uint32_t material;
+    } parts[] = {{{-0.9f, 0.4f, 6.1f}, {0.9f, 0.5f, 6.6f}, paint_of::marble},
+                 {{-0.8f, 0.02f, 6.2f}, {-0.6f, 0.4f, 6.5f}, paint_of::sandstone},
+                 {{0.6f, 0.02f, 6.2f}, {0.8f, 0.4f, 6.5f}, paint_of::sandstone}};
     for (const auto& part : parts) {
       MeshData data;
       add_box(data, part.low, part.high, 0.5f);

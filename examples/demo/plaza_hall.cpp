@@ -9,7 +9,9 @@ namespace {
 
 using glm::vec2, glm::vec3;
 
-struct Opening { float left, right, low, high; };
+struct Opening {
+  float left, right, low, high;
+};
 
 // A wall of thickness 0.3 along x with holes, which are sorted and apart.
 void build_front(Workshop& shop, float z) {
@@ -41,16 +43,19 @@ void glaze(Workshop& shop, const char* name, uint32_t material, vec3 low, vec3 d
 void build_windows(Workshop& shop, float z) {
   for (const float left : {-5.4f, 2.8f}) {
     for (int i = 0; i < 3; ++i)
-      glaze(shop, "hall pane", i == 1 ? paint_of::green_glass : paint_of::glass, {left + 0.867f * static_cast<float>(i), 1.9f, z - 0.15f}, {0.867f, 0, 0}, {0, 2.4f, 0});
+      glaze(shop, "hall pane", i == 1 ? paint_of::green_glass : paint_of::glass, {left + 0.867f * static_cast<float>(i), 1.9f, z - 0.15f},
+            {0.867f, 0, 0}, {0, 2.4f, 0});
     for (int i = 0; i < 4; ++i)
-      place_box(shop, "glazing bar", paint_of::bronze, {left + 0.867f * static_cast<float>(i) - 0.025f, 1.9f, z - 0.18f}, {left + 0.867f * static_cast<float>(i) + 0.025f, 4.3f, z - 0.12f}, 2);
+      place_box(shop, "glazing bar", paint_of::bronze, {left + 0.867f * static_cast<float>(i) - 0.025f, 1.9f, z - 0.18f},
+                {left + 0.867f * static_cast<float>(i) + 0.025f, 4.3f, z - 0.12f}, 2);
     place_box(shop, "glazing rail", paint_of::bronze, {left, 3.2f, z - 0.18f}, {left + 2.6f, 3.25f, z - 0.12f}, 3);
   }
   for (const float side : {-1.0f, 1.0f}) {  // the doors stand open
     MeshData leaf;
     add_box(leaf, {0, plan::terrace, -0.04f}, {1.45f, 3.85f, 0.04f}, 0.5f);
     const uint32_t at = place(shop, "door leaf", paint_of::planks, std::move(leaf));
-    shop.scene.instances[at].transform = glm::rotate(glm::translate(glm::mat4(1), vec3(side * 1.5f, 0, z - 0.3f)), side < 0 ? 1.75f : 1.39f, vec3(0, 1, 0));
+    shop.scene.instances[at].transform =
+        glm::rotate(glm::translate(glm::mat4(1), vec3(side * 1.5f, 0, z - 0.3f)), side < 0 ? 1.75f : 1.39f, vec3(0, 1, 0));
   }
 }
 
@@ -69,7 +74,8 @@ void build_shell(Workshop& shop) {
   for (const float side : {-1.0f, 1.0f}) {
     const float a = side * x, b = side * (x - 0.05f);
     place_box(shop, "wainscot", paint_of::planks, {std::min(a, b), floor, back}, {std::max(a, b), floor + 1.1f, front - 0.3f}, 0.5f);
-    place_box(shop, "wainscot rail", paint_of::gold, {std::min(a, side * (x - 0.08f)), floor + 1.1f, back}, {std::max(a, side * (x - 0.08f)), floor + 1.16f, front - 0.3f}, 1);
+    place_box(shop, "wainscot rail", paint_of::gold, {std::min(a, side * (x - 0.08f)), floor + 1.1f, back},
+              {std::max(a, side * (x - 0.08f)), floor + 1.16f, front - 0.3f}, 1);
   }
 }
 
@@ -88,7 +94,8 @@ void build_table(Workshop& shop) {
     place_box(shop, "table bench", paint_of::beams, {x - 0.18f, floor + 0.38f, -19.2f}, {x + 0.18f, floor + 0.45f, -16.2f}, 0.6f);
   for (int i = 0; i < 4; ++i) {
     MeshData cup;
-    const vec2 profile[] = {{0.09f, 0}, {0.1f, 0.02f}, {0.03f, 0.05f}, {0.03f, 0.12f}, {0.09f, 0.18f}, {0.11f, 0.28f}, {0.10f, 0.28f}, {0.06f, 0.19f}};
+    const vec2 profile[] = {{0.09f, 0},     {0.1f, 0.02f},  {0.03f, 0.05f}, {0.03f, 0.12f},
+                            {0.09f, 0.18f}, {0.11f, 0.28f}, {0.10f, 0.28f}, {0.06f, 0.19f}};
     add_lathe(cup, {i % 2 == 0 ? -0.4f : 0.4f, floor + 0.82f, -19.0f + 0.9f * static_cast<float>(i)}, profile, 24);
     place(shop, "goblet " + std::to_string(i), i % 2 == 0 ? paint_of::gold : paint_of::verdigris, std::move(cup));
   }
@@ -117,7 +124,17 @@ void build_pillars(Workshop& shop) {
     for (const float z : {-19.6f, -15.9f}) {
       MeshData pillar;
       const float floor = plan::terrace, height = plan::hall_ceiling - floor;
-      const vec2 profile[] = {{0.36f, 0}, {0.36f, 0.2f}, {0.28f, 0.28f}, {0.24f, 0.34f}, {0.23f, 1.6f}, {0.21f, height - 0.7f}, {0.25f, height - 0.66f}, {0.2f, height - 0.6f}, {0.3f, height - 0.34f}, {0.4f, height - 0.2f}, {0.4f, height}};
+      const vec2 profile[] = {{0.36f, 0},
+                              {0.36f, 0.2f},
+                              {0.28f, 0.28f},
+                              {0.24f, 0.34f},
+                              {0.23f, 1.6f},
+                              {0.21f, height - 0.7f},
+                              {0.25f, height - 0.66f},
+                              {0.2f, height - 0.6f},
+                              {0.3f, height - 0.34f},
+                              {0.4f, height - 0.2f},
+                              {0.4f, height}};
       add_lathe(pillar, {x, floor, z}, profile, 40);
       place(shop, "hall pillar " + std::to_string(number++), paint_of::dark_marble, std::move(pillar));
     }

@@ -12,26 +12,50 @@ namespace rg::demo {
 
 // The plan, metres. The court is open; a covered walk runs around it.
 namespace plan {
-constexpr float court_x = 14, court_z = 10;   // half sizes
-constexpr float walk = 3.5f;                  // width of the covered walk
-constexpr float bay = 4;                      // between columns
+constexpr float court_x = 14, court_z = 10;          // half sizes
+constexpr float walk = 3.5f;                         // width of the covered walk
+constexpr float bay = 4;                             // between columns
 constexpr float walk_floor = 0.15f, terrace = 0.9f;  // the northern walk is a terrace
-constexpr float spring = 3.55f;               // where arches begin
-constexpr float upper = 5.85f, eaves = 9.6f;  // upper floor
+constexpr float spring = 3.55f;                      // where arches begin
+constexpr float upper = 5.85f, eaves = 9.6f;         // upper floor
 constexpr float hall_x = 7, hall_front = -court_z - walk, hall_back = -22, hall_ceiling = 5.6f;
-}
+}  // namespace plan
 
 namespace paint_of {
 enum : uint32_t {
-  granite, plaster, ochre, brick, marble, dark_marble, planks, beams, roof, sandstone, mosaic, bronze, gold, rug, leaves, verdigris, terracotta,
-  plain_white, glow_warm, glow_teal, glow_rose, embers, glass, water, green_glass, count
+  granite,
+  plaster,
+  ochre,
+  brick,
+  marble,
+  dark_marble,
+  planks,
+  beams,
+  roof,
+  sandstone,
+  mosaic,
+  bronze,
+  gold,
+  rug,
+  leaves,
+  verdigris,
+  terracotta,
+  plain_white,
+  glow_warm,
+  glow_teal,
+  glow_rose,
+  embers,
+  glass,
+  water,
+  green_glass,
+  count
 };
 }
 
 struct Workshop {
   Scene scene;
-  std::vector<Box> solids;              // what hides the sky
-  std::vector<float> texture_metres;    // by material: side of one repeat
+  std::vector<Box> solids;            // what hides the sky
+  std::vector<float> texture_metres;  // by material: side of one repeat
 };
 
 // Appends a mesh with its one instance; texture coordinates become repeats of the material's texture.
@@ -42,16 +66,18 @@ void place_prop(Workshop& shop, uint32_t mesh, glm::vec3 at, float turn = 0, Ani
 float random_unit(uint32_t seed);  // [0, 1)
 
 void make_materials(Workshop& shop);
-void build_court(Workshop& shop);      // paving, steps, fountain, planters
-void build_arcades(Workshop& shop);    // columns, arches, walks, upper floors, roofs
-void build_hall(Workshop& shop);       // the room
-void build_props(Workshop& shop);      // lanterns, strings of bulbs, banners, barrels
+void build_court(Workshop& shop);    // paving, steps, fountain, planters
+void build_arcades(Workshop& shop);  // columns, arches, walks, upper floors, roofs
+void build_hall(Workshop& shop);     // the room
+void build_props(Workshop& shop);    // lanterns, strings of bulbs, banners, barrels
 void hang_lights(Workshop& shop);
 
 // Bulbs of the strings over the court, shared by props and lights.
-struct Bulb { glm::vec3 position, color; };
+struct Bulb {
+  glm::vec3 position, color;
+};
 std::vector<std::vector<Bulb>> strings_of_bulbs();
-std::vector<glm::vec3> column_places();        // foot of each
+std::vector<glm::vec3> column_places();  // foot of each
 std::vector<glm::vec3> hanging_lantern_places();
 std::vector<glm::vec3> lantern_post_places();
 std::vector<glm::vec3> candle_places();

@@ -31,13 +31,15 @@ void paint_lantern(PropData& prop, vec3 at, float size, uint32_t part) {
   paint(prop, lathe({{0.0f, 0.62f}, {0.05f, 0.6f}, {0.06f, 0.52f}, {0.3f, 0.36f}, {0.28f, 0.32f}, {0.0f, 0.32f}}, 12, at), iron);
   paint(prop, lathe({{0.0f, -0.36f}, {0.2f, -0.34f}, {0.22f, -0.28f}, {0.0f, -0.28f}}, 12, at), iron);
   for (const float x : {-0.17f, 0.17f})
-    for (const float z : {-0.17f, 0.17f}) paint(prop, box(at + vec3(x - 0.015f, -0.3f, z - 0.015f) * size, at + vec3(x + 0.015f, 0.34f, z + 0.015f) * size), iron);
+    for (const float z : {-0.17f, 0.17f})
+      paint(prop, box(at + vec3(x - 0.015f, -0.3f, z - 0.015f) * size, at + vec3(x + 0.015f, 0.34f, z + 0.015f) * size), iron);
   paint(prop, lathe({{0.05f, -0.26f}, {0.12f, -0.16f}, {0.13f, 0.1f}, {0.06f, 0.28f}}, 12, at), {kWarm, 0.9f, 0, 4.5f, part});
 }
 
 void build_lanterns(Workshop& shop) {
   PropData post, hanging;
-  paint(post, lathe({{0.24f, 0}, {0.24f, 0.1f}, {0.14f, 0.2f}, {0.1f, 0.3f}, {0.06f, 0.5f}, {0.055f, 2.4f}, {0.1f, 2.5f}, {0.05f, 2.6f}}, 16), {kIron, 0.5f, 1});
+  paint(post, lathe({{0.24f, 0}, {0.24f, 0.1f}, {0.14f, 0.2f}, {0.1f, 0.3f}, {0.06f, 0.5f}, {0.055f, 2.4f}, {0.1f, 2.5f}, {0.05f, 2.6f}}, 16),
+        {kIron, 0.5f, 1});
   paint_lantern(post, {0, 2.95f, 0}, 1, 0);
   const uint32_t post_mesh = add_prop_mesh(shop.scene, "lantern post", post);
   for (const vec3& at : lantern_post_places()) place_prop(shop, post_mesh, at - vec3(0, 2.95f, 0));
@@ -89,9 +91,19 @@ void build_banners(Workshop& shop) {
 
 void build_barrels(Workshop& shop) {
   PropData barrel, crate;
-  paint(barrel, lathe({{0.0f, 0.0f}, {0.27f, 0.0f}, {0.34f, 0.25f}, {0.36f, 0.45f}, {0.34f, 0.65f}, {0.27f, 0.9f}, {0.25f, 0.9f}, {0.24f, 0.86f}, {0.0f, 0.86f}}, 24), {{0.20f, 0.10f, 0.045f}, 0.7f});
+  paint(
+      barrel,
+      lathe(
+          {{0.0f, 0.0f}, {0.27f, 0.0f}, {0.34f, 0.25f}, {0.36f, 0.45f}, {0.34f, 0.65f}, {0.27f, 0.9f}, {0.25f, 0.9f}, {0.24f, 0.86f}, {0.0f, 0.86f}},
+          24),
+      {{0.20f, 0.10f, 0.045f}, 0.7f});
   for (const float y : {0.12f, 0.3f, 0.6f, 0.78f})
-    paint(barrel, lathe({{0.30f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y - 0.03f}, {0.315f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y}, {0.30f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y + 0.03f}}, 24), {kIron, 0.5f, 1});
+    paint(barrel,
+          lathe({{0.30f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y - 0.03f},
+                 {0.315f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y},
+                 {0.30f + 0.08f * (0.45f - std::abs(y - 0.45f)) * 2, y + 0.03f}},
+                24),
+          {kIron, 0.5f, 1});
   paint(crate, box({-0.4f, 0.02f, -0.4f}, {0.4f, 0.78f, 0.4f}), {{0.24f, 0.135f, 0.06f}, 0.8f});
   for (const float y : {0.0f, 0.7f})
     for (const float z : {-0.42f, 0.36f}) {
@@ -99,15 +111,18 @@ void build_barrels(Workshop& shop) {
       paint(crate, box({z, y, -0.43f}, {z + 0.06f, y + 0.1f, 0.43f}), {{0.15f, 0.08f, 0.035f}, 0.8f});
     }
   const uint32_t barrel_mesh = add_prop_mesh(shop.scene, "barrel", barrel), crate_mesh = add_prop_mesh(shop.scene, "crate", crate);
-  const vec3 barrels[] = {{-12.6f, 0, 8.6f}, {-13.0f, 0, 7.7f}, {-12.2f, 0, 7.9f}, {12.8f, 0, -8.4f}, {12.5f, 0, -7.6f}, {16.6f, plan::walk_floor, 4.0f}};
+  const vec3 barrels[] = {{-12.6f, 0, 8.6f}, {-13.0f, 0, 7.7f}, {-12.2f, 0, 7.9f},
+                          {12.8f, 0, -8.4f}, {12.5f, 0, -7.6f}, {16.6f, plan::walk_floor, 4.0f}};
   for (uint32_t i = 0; i < 6; ++i) place_prop(shop, barrel_mesh, barrels[i], random_unit(i) * 6, {}, vec3(0.8f + 0.5f * random_unit(i + 50)));
-  const vec3 crates[] = {{-13.1f, 0, 5.9f}, {-12.3f, 0, 6.3f}, {-12.9f, 0.78f, 6.1f}, {12.9f, 0, 8.7f}, {12.0f, 0, 8.9f}, {12.6f, 0.78f, 8.8f}, {-6.2f, plan::terrace, -21.3f}};
+  const vec3 crates[] = {{-13.1f, 0, 5.9f}, {-12.3f, 0, 6.3f},    {-12.9f, 0.78f, 6.1f},         {12.9f, 0, 8.7f},
+                         {12.0f, 0, 8.9f},  {12.6f, 0.78f, 8.8f}, {-6.2f, plan::terrace, -21.3f}};
   for (uint32_t i = 0; i < 7; ++i) place_prop(shop, crate_mesh, crates[i], random_unit(i + 90) * 0.8f, {}, vec3(0.8f + 0.5f * random_unit(i + 70)));
 }
 
 void build_candles(Workshop& shop) {
   PropData candle;
-  paint(candle, lathe({{0.05f, -0.26f}, {0.05f, -0.24f}, {0.02f, -0.2f}, {0.028f, -0.18f}, {0.028f, -0.04f}, {0.0f, -0.04f}}, 10), {{0.75f, 0.70f, 0.58f}, 0.6f});
+  paint(candle, lathe({{0.05f, -0.26f}, {0.05f, -0.24f}, {0.02f, -0.2f}, {0.028f, -0.18f}, {0.028f, -0.04f}, {0.0f, -0.04f}}, 10),
+        {{0.75f, 0.70f, 0.58f}, 0.6f});
   paint(candle, lathe({{0.0f, -0.04f}, {0.016f, -0.01f}, {0.012f, 0.025f}, {0.0f, 0.06f}}, 8), {{1.0f, 0.66f, 0.25f}, 0.9f, 0, 8});
   const uint32_t mesh = add_prop_mesh(shop.scene, "candle", candle);
   for (const vec3& at : candle_places()) place_prop(shop, mesh, at);
@@ -123,12 +138,14 @@ void build_bookshelves(Workshop& shop) {
       for (uint32_t k = 0; k < 26 && row < 4; ++k) {
         const uint32_t seed = shelf * 1000 + static_cast<uint32_t>(row) * 40 + k;
         const float x = -1.42f + 0.109f * static_cast<float>(k), tall = 0.26f + 0.13f * random_unit(seed);
-        const vec3 hue = glm::mix(vec3(0.22f, 0.05f, 0.03f), vec3(0.04f, 0.09f, 0.16f), random_unit(seed + 500)) * (0.6f + 0.9f * random_unit(seed + 900));
+        const vec3 hue =
+            glm::mix(vec3(0.22f, 0.05f, 0.03f), vec3(0.04f, 0.09f, 0.16f), random_unit(seed + 500)) * (0.6f + 0.9f * random_unit(seed + 900));
         paint(prop, box({x, y + 0.05f, -0.3f}, {x + 0.085f + 0.02f * random_unit(seed + 7), y + 0.05f + tall, -0.06f}), {hue, 0.6f});
       }
     }
     for (const float x : {-1.55f, 1.5f}) paint(prop, box({x, 0, -0.36f}, {x + 0.05f, 2.0f, 0.0f}), wood);
-    place_prop(shop, add_prop_mesh(shop.scene, "bookshelf " + std::to_string(shelf), prop), {-6.88f, plan::terrace, -20.3f + 3.4f * static_cast<float>(shelf)}, -1.5707963f);
+    place_prop(shop, add_prop_mesh(shop.scene, "bookshelf " + std::to_string(shelf), prop),
+               {-6.88f, plan::terrace, -20.3f + 3.4f * static_cast<float>(shelf)}, -1.5707963f);
   }
 }
 

@@ -12,7 +12,9 @@ namespace {
 constexpr uint32_t kMaxSlots = 5;
 
 // What the host rewrites each frame.
-struct Slot { GpuBuffer lights, instances; };
+struct Slot {
+  GpuBuffer lights, instances;
+};
 
 struct Recorder {
   const Scene& scene;
@@ -83,9 +85,13 @@ Result<Slot> make_slot(Device& device) {
   return Slot{std::move(*lights), std::move(*instances)};
 }
 
-struct Target { GpuImage backbuffer; GpuBuffer readback; };
+struct Target {
+  GpuImage backbuffer;
+  GpuBuffer readback;
+};
 Result<Target> make_target(Device& device, uint32_t width, uint32_t height) {
-  auto image = make_image(device, {VK_FORMAT_R8G8B8A8_UNORM, width, height, 1, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+  auto image =
+      make_image(device, {VK_FORMAT_R8G8B8A8_UNORM, width, height, 1, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
   if (!image) return image.error();
   auto buffer = make_buffer(device, VkDeviceSize{width} * height * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT, true);
   if (!buffer) return buffer.error();

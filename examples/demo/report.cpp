@@ -26,8 +26,10 @@ void add_passes(std::string& text, const Measurements& m) {
 }
 
 void add_memory(std::string& text, const MemoryReport& memory) {
-  const double over = memory.lower_bound_bytes > 0 ? 100.0 * (static_cast<double>(memory.heap_bytes) / static_cast<double>(memory.lower_bound_bytes) - 1) : 0;
-  const double saved = memory.unaliased_bytes > 0 ? 100.0 * (1 - static_cast<double>(memory.heap_bytes) / static_cast<double>(memory.unaliased_bytes)) : 0;
+  const double over =
+      memory.lower_bound_bytes > 0 ? 100.0 * (static_cast<double>(memory.heap_bytes) / static_cast<double>(memory.lower_bound_bytes) - 1) : 0;
+  const double saved =
+      memory.unaliased_bytes > 0 ? 100.0 * (1 - static_cast<double>(memory.heap_bytes) / static_cast<double>(memory.unaliased_bytes)) : 0;
   text += "transient memory               MiB\n";
   text += fmt::format("{:<24} {:>9.2f}\n", "without aliasing", mib(memory.unaliased_bytes));
   text += fmt::format("{:<24} {:>9.2f}   {:.1f} % saved\n", "with aliasing", mib(memory.heap_bytes), saved);
@@ -37,8 +39,10 @@ void add_memory(std::string& text, const MemoryReport& memory) {
 }
 
 void add_barriers(std::string& text, const Plan& plan) {
-  const auto counted = std::count_if(plan.groups.begin(), plan.groups.end(), [](const BarrierGroup& g) { return g.memory_count + g.image_count + g.buffer_count > 0; });
-  text += fmt::format("barriers: {} calls with {} memory, {} image and {} buffer barriers\n", counted, plan.memory_barriers.size(), plan.image_barriers.size(), plan.buffer_barriers.size());
+  const auto counted = std::count_if(plan.groups.begin(), plan.groups.end(),
+                                     [](const BarrierGroup& g) { return g.memory_count + g.image_count + g.buffer_count > 0; });
+  text += fmt::format("barriers: {} calls with {} memory, {} image and {} buffer barriers\n", counted, plan.memory_barriers.size(),
+                      plan.image_barriers.size(), plan.buffer_barriers.size());
   if (plan.culled.empty()) text += "culled passes: none, all of them reach an output\n";
   for (const Culled& culled : plan.culled) text += fmt::format("culled pass {}: {}\n", culled.pass, culled.reason);
 }
@@ -50,8 +54,8 @@ std::string format_report(const Plan& plan, const Measurements& m, const std::st
   add_passes(text, m);
   add_memory(text, m.memory);
   add_barriers(text, plan);
-  text += fmt::format("culled meshes: {} of {} lie outside the view, {} are drawn ({} triangles), {} cast a shadow; {} lights\n", m.outside, m.outside + m.visible,
-                      m.visible, m.triangles, m.in_sun, m.lights);
+  text += fmt::format("culled meshes: {} of {} lie outside the view, {} are drawn ({} triangles), {} cast a shadow; {} lights\n", m.outside,
+                      m.outside + m.visible, m.visible, m.triangles, m.in_sun, m.lights);
   return text;
 }
 

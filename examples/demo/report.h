@@ -8,7 +8,10 @@
 
 namespace rg::demo {
 
-struct MeasuredPass { std::string name; double ms = 0; };
+struct MeasuredPass {
+  std::string name;
+  double ms = 0;
+};
 struct Measurements {
   std::vector<MeasuredPass> passes;  // each in a submit of its own, by the wall clock
   double frame_ms = 0;               // the whole frame in one submit

@@ -61,7 +61,7 @@ struct Prop {
 struct Light {
   glm::vec3 position{0};
   float range = 1;
-  glm::vec3 color{1};           // radiant intensity
+  glm::vec3 color{1};  // radiant intensity
   bool is_spot = false;
   glm::vec3 direction{0, -1, 0};
   float inner = 0.4f, outer = 0.6f;  // half angles, radians, below 90 degrees
@@ -76,12 +76,12 @@ struct NamedCamera {
 struct Sun {
   glm::vec3 direction{0, 1, 0};  // towards it
   glm::vec3 color{1}, ambient{0.2f};
-  glm::vec3 center{0};           // of what casts and receives shadows
+  glm::vec3 center{0};  // of what casts and receives shadows
   float radius = 20;
 };
 
 constexpr uint32_t kTextureSize = 256, kTextureLayers = 32, kTextureMips = 9;
-struct TextureLayer {  // rgba8, kTextureSize squared, mip 0
+struct TextureLayer {            // rgba8, kTextureSize squared, mip 0
   std::vector<uint8_t> albedo;   // sRGB
   std::vector<uint8_t> surface;  // normal xy, roughness, metallic
 };
@@ -98,8 +98,8 @@ struct Scene {
   std::vector<TextureLayer> textures;  // at most kTextureLayers; layer 0 is white and flat
   std::vector<Instance> instances;     // at most 1024
   std::vector<Prop> props;
-  std::vector<Light> lights;           // at most 512
-  std::vector<NamedCamera> cameras;    // the first is the default
+  std::vector<Light> lights;         // at most 512
+  std::vector<NamedCamera> cameras;  // the first is the default
   Sun sun;
   bool has_hologram = false;
   glm::vec3 hologram_center{0};

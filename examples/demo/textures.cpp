@@ -12,8 +12,8 @@ namespace {
 using glm::vec2, glm::vec3;
 
 struct Texel {
-  vec3 color{1};       // linear
-  float height = 0;    // textures' own unit; slopes matter
+  vec3 color{1};     // linear
+  float height = 0;  // textures' own unit; slopes matter
   float roughness = 1, metallic = 1;
 };
 using Pattern = Texel (*)(vec2 at);  // at in [0, 1), periodic
@@ -26,7 +26,9 @@ uint32_t hash(uint32_t x, uint32_t y, uint32_t seed) {
   h *= 0x297A2D39u;
   return h ^ (h >> 15);
 }
-float random(int x, int y, uint32_t seed) { return static_cast<float>(hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), seed) >> 8) / 16777216.0f; }
+float random(int x, int y, uint32_t seed) {
+  return static_cast<float>(hash(static_cast<uint32_t>(x), static_cast<uint32_t>(y), seed) >> 8) / 16777216.0f;
+}
 
 float smooth(float t) { return t * t * (3 - 2 * t); }
 
@@ -47,7 +49,11 @@ float fractal(vec2 at, int cells, uint32_t seed, int octaves = 4) {
 }
 
 // Bricks in running bond: which brick, and how far inside it (0 in the joint, 1 beyond the rounded edge).
-struct Bond { int column = 0, row = 0; float inside = 0; vec2 within{0}; };
+struct Bond {
+  int column = 0, row = 0;
+  float inside = 0;
+  vec2 within{0};
+};
 Bond bond(vec2 at, int columns, int rows, float joint, float offset) {
   const float v = at.y * static_cast<float>(rows);
   const int row = static_cast<int>(std::floor(v));
@@ -84,7 +90,8 @@ float vein(vec2 at, uint32_t seed) {
 }
 Texel marble(vec2 at) {
   const float v = vein(at, 41);
-  return {glm::mix(vec3(0.82f, 0.80f, 0.77f) * (0.92f + 0.1f * fractal(at, 4, 49)), vec3(0.45f, 0.46f, 0.50f), 0.6f * v), 0.06f * v, 0.32f + 0.15f * v, 0};
+  return {glm::mix(vec3(0.82f, 0.80f, 0.77f) * (0.92f + 0.1f * fractal(at, 4, 49)), vec3(0.45f, 0.46f, 0.50f), 0.6f * v), 0.06f * v,
+          0.32f + 0.15f * v, 0};
 }
 Texel dark_marble(vec2 at) {
   const float v = vein(at, 51);
@@ -127,10 +134,14 @@ Texel rug(vec2 at) {
   const float border = std::max(c.x, c.y), diamond = c.x + c.y;
   const float weave = 0.5f + 0.5f * std::sin(at.x * 2 * std::numbers::pi_v<float> * 64) * std::sin(at.y * 2 * std::numbers::pi_v<float> * 64);
   vec3 color(0.30f, 0.028f, 0.03f);
-  if (border > 0.86f) color = vec3(0.05f, 0.06f, 0.16f);
-  else if (border > 0.80f) color = vec3(0.55f, 0.40f, 0.14f);
-  else if (std::fmod(diamond * 4.0f, 1.0f) < 0.28f) color = vec3(0.60f, 0.42f, 0.18f);
-  else if (diamond < 0.5f) color = vec3(0.05f, 0.09f, 0.20f);
+  if (border > 0.86f)
+    color = vec3(0.05f, 0.06f, 0.16f);
+  else if (border > 0.80f)
+    color = vec3(0.55f, 0.40f, 0.14f);
+  else if (std::fmod(diamond * 4.0f, 1.0f) < 0.28f)
+    color = vec3(0.60f, 0.42f, 0.18f);
+  else if (diamond < 0.5f)
+    color = vec3(0.05f, 0.09f, 0.20f);
   return {color * (0.7f + 0.45f * weave), 0.6f * weave, 0.95f, 0};
 }
 Texel leaves(vec2 at) {
@@ -169,7 +180,8 @@ TextureLayer encode(const std::vector<Texel>& texels) {
     for (uint32_t x = 0; x < kTextureSize; ++x) {
       const size_t i = y * kTextureSize + x;
       const Texel& t = texels[i];
-      const vec3 n = glm::normalize(vec3((at(x + kTextureSize - 1, y) - at(x + 1, y)) * scale, (at(x, y + kTextureSize - 1) - at(x, y + 1)) * scale, 1));
+      const vec3 n =
+          glm::normalize(vec3((at(x + kTextureSize - 1, y) - at(x + 1, y)) * scale, (at(x, y + kTextureSize - 1) - at(x, y + 1)) * scale, 1));
       const uint8_t a[4] = {to_byte(to_srgb(t.color.r)), to_byte(to_srgb(t.color.g)), to_byte(to_srgb(t.color.b)), 255};
       const uint8_t s[4] = {to_byte(n.x * 0.5f + 0.5f), to_byte(n.y * 0.5f + 0.5f), to_byte(t.roughness), to_byte(t.metallic)};
       std::copy_n(a, 4, out.albedo.begin() + static_cast<ptrdiff_t>(i * 4));
@@ -197,8 +209,21 @@ uint8_t average(const uint8_t* a, const uint8_t* b, const uint8_t* c, const uint
 }  // namespace
 
 std::vector<TextureLayer> make_plaza_textures() {
-  const Pattern patterns[layer::count] = {[](vec2) { return Texel{}; }, granite, plaster, brick, marble, dark_marble, planks, roof, sandstone,
-                                          mosaic, hammered, rug, leaves, verdigris, terracotta};
+  const Pattern patterns[layer::count] = {[](vec2) { return Texel{}; },
+                                          granite,
+                                          plaster,
+                                          brick,
+                                          marble,
+                                          dark_marble,
+                                          planks,
+                                          roof,
+                                          sandstone,
+                                          mosaic,
+                                          hammered,
+                                          rug,
+                                          leaves,
+                                          verdigris,
+                                          terracotta};
   std::vector<TextureLayer> layers;
   for (const Pattern pattern : patterns) layers.push_back(encode(evaluate(pattern)));
   return layers;

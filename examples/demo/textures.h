@@ -8,7 +8,24 @@
 namespace rg::demo {
 
 namespace layer {
-enum : uint32_t { flat, granite, plaster, brick, marble, dark_marble, planks, roof, sandstone, mosaic, hammered, rug, leaves, verdigris, terracotta, count };
+enum : uint32_t {
+  flat,
+  granite,
+  plaster,
+  brick,
+  marble,
+  dark_marble,
+  planks,
+  roof,
+  sandstone,
+  mosaic,
+  hammered,
+  rug,
+  leaves,
+  verdigris,
+  terracotta,
+  count
+};
 }
 
 std::vector<TextureLayer> make_plaza_textures();

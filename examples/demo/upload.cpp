@@ -9,7 +9,8 @@ namespace rg::demo {
 namespace {
 
 Error out_of_memory(const char* what, VkDeviceSize bytes) {
-  return {ErrorCode::out_of_memory, std::string(what) + " of " + std::to_string(bytes) + " bytes cannot be allocated on the device; use a smaller scene or size"};
+  return {ErrorCode::out_of_memory,
+          std::string(what) + " of " + std::to_string(bytes) + " bytes cannot be allocated on the device; use a smaller scene or size"};
 }
 Error driver_error(const char* call, VkResult result) {
   return {result == VK_ERROR_DEVICE_LOST ? ErrorCode::device_lost : ErrorCode::driver, std::string(call) + " failed with " + std::to_string(result)};
@@ -21,7 +22,8 @@ Result<UniqueMemory> allocate(Device& device, const VkMemoryRequirements& needs,
   const uint32_t type = device.memory_type(needs.memoryTypeBits, wanted, preferred);
   const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  if (type == UINT32_MAX || device.vk().AllocateMemory(device.handle(), &info, nullptr, &memory) != VK_SUCCESS) return out_of_memory(what, needs.size);
+  if (type == UINT32_MAX || device.vk().AllocateMemory(device.handle(), &info, nullptr, &memory) != VK_SUCCESS)
+    return out_of_memory(what, needs.size);
   return UniqueMemory(device.vk(), device.handle(), memory);
 }
 
@@ -80,7 +82,8 @@ std::vector<VkBufferImageCopy> mip_copies(size_t offset, uint32_t layer) {
 
 Result<GpuImage> stage_layers(Device& device, Staging& staging, const Scene& scene, bool albedo) {
   const VkFormat format = albedo ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-  auto image = make_image(device, {format, kTextureSize, kTextureSize, kTextureMips, kTextureLayers, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, true});
+  auto image = make_image(
+      device, {format, kTextureSize, kTextureSize, kTextureMips, kTextureLayers, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, true});
   if (!image) return image;
   std::vector<VkBufferImageCopy> regions;
   for (uint32_t layer = 0; layer < scene.textures.size(); ++layer) {
@@ -128,7 +131,8 @@ Result<GpuBuffer> make_buffer(Device& device, VkDeviceSize size, VkBufferUsageFl
   info.size = size;
   info.usage = usage;
   VkBuffer handle = VK_NULL_HANDLE;
-  if (const VkResult result = vk.CreateBuffer(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS) return driver_error("vkCreateBuffer", result);
+  if (const VkResult result = vk.CreateBuffer(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS)
+    return driver_error("vkCreateBuffer", result);
   GpuBuffer buffer;
   buffer.buffer = UniqueBuffer(vk, device.handle(), handle);
   buffer.size = size;
@@ -137,7 +141,8 @@ Result<GpuBuffer> make_buffer(Device& device, VkDeviceSize size, VkBufferUsageFl
   auto memory = allocate(device, needs, host_visible, "a buffer");
   if (!memory) return memory.error();
   buffer.memory = std::move(*memory);
-  if (const VkResult result = vk.BindBufferMemory(device.handle(), handle, buffer.memory.get(), 0); result != VK_SUCCESS) return driver_error("vkBindBufferMemory", result);
+  if (const VkResult result = vk.BindBufferMemory(device.handle(), handle, buffer.memory.get(), 0); result != VK_SUCCESS)
+    return driver_error("vkBindBufferMemory", result);
   if (!host_visible) return buffer;
   const VkResult result = vk.MapMemory(device.handle(), buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &buffer.mapped);
   if (result != VK_SUCCESS) return driver_error("vkMapMemory", result);
@@ -155,7 +160,8 @@ Result<GpuImage> make_image(Device& device, const ImageShape& shape) {
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = shape.usage;
   VkImage handle = VK_NULL_HANDLE;
-  if (const VkResult result = vk.CreateImage(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS) return driver_error("vkCreateImage", result);
+  if (const VkResult result = vk.CreateImage(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS)
+    return driver_error("vkCreateImage", result);
   GpuImage image;
   image.image = UniqueImage(vk, device.handle(), handle);
   VkMemoryRequirements needs;
@@ -163,27 +169,33 @@ Result<GpuImage> make_image(Device& device, const ImageShape& shape) {
   auto memory = allocate(device, needs, false, "an image");
   if (!memory) return memory.error();
   image.memory = std::move(*memory);
-  if (const VkResult result = vk.BindImageMemory(device.handle(), handle, image.memory.get(), 0); result != VK_SUCCESS) return driver_error("vkBindImageMemory", result);
+  if (const VkResult result = vk.BindImageMemory(device.handle(), handle, image.memory.get(), 0); result != VK_SUCCESS)
+    return driver_error("vkBindImageMemory", result);
   auto view = vulkan_struct<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
   view.image = handle;
   view.viewType = shape.array_view ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
   view.format = shape.format;
   view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, shape.mips, 0, shape.layers};
   VkImageView view_handle = VK_NULL_HANDLE;
-  if (const VkResult result = vk.CreateImageView(device.handle(), &view, nullptr, &view_handle); result != VK_SUCCESS) return driver_error("vkCreateImageView", result);
+  if (const VkResult result = vk.CreateImageView(device.handle(), &view, nullptr, &view_handle); result != VK_SUCCESS)
+    return driver_error("vkCreateImageView", result);
   image.view = UniqueView(vk, device.handle(), view_handle);
   return image;
 }
 
 Status submit_once(Device& device, const std::function<void(VkCommandBuffer)>& record) {
   const DeviceFunctions& vk = device.vk();
-  const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device.queue_family()};
+  const VkCommandPoolCreateInfo pool_info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
+                                          device.queue_family()};
   VkCommandPool pool_handle = VK_NULL_HANDLE;
-  if (const VkResult result = vk.CreateCommandPool(device.handle(), &pool_info, nullptr, &pool_handle); result != VK_SUCCESS) return driver_error("vkCreateCommandPool", result);
+  if (const VkResult result = vk.CreateCommandPool(device.handle(), &pool_info, nullptr, &pool_handle); result != VK_SUCCESS)
+    return driver_error("vkCreateCommandPool", result);
   const UniqueCommandPool pool(vk, device.handle(), pool_handle);
-  const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_handle, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  const VkCommandBufferAllocateInfo allocate_info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_handle,
+                                                  VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
   VkCommandBuffer commands = VK_NULL_HANDLE;
-  if (const VkResult result = vk.AllocateCommandBuffers(device.handle(), &allocate_info, &commands); result != VK_SUCCESS) return driver_error("vkAllocateCommandBuffers", result);
+  if (const VkResult result = vk.AllocateCommandBuffers(device.handle(), &allocate_info, &commands); result != VK_SUCCESS)
+    return driver_error("vkAllocateCommandBuffers", result);
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   vk.BeginCommandBuffer(commands, &begin);
   record(commands);
@@ -192,7 +204,8 @@ Status submit_once(Device& device, const std::function<void(VkCommandBuffer)>& r
   auto submit = vulkan_struct<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &buffer_info;
-  if (const VkResult result = vk.QueueSubmit2(device.queue(), 1, &submit, VK_NULL_HANDLE); result != VK_SUCCESS) return driver_error("vkQueueSubmit2", result);
+  if (const VkResult result = vk.QueueSubmit2(device.queue(), 1, &submit, VK_NULL_HANDLE); result != VK_SUCCESS)
+    return driver_error("vkQueueSubmit2", result);
   if (const VkResult result = vk.QueueWaitIdle(device.queue()); result != VK_SUCCESS) return driver_error("vkQueueWaitIdle", result);
   return Done{};
 }
@@ -203,8 +216,10 @@ Result<GpuScene> upload(Device& device, const Scene& scene) {
   GpuScene gpu;
   Error failure;
   const auto keep = [&failure](auto& target, auto made) {
-    if (made) target = std::move(*made);
-    else failure = made.error();
+    if (made)
+      target = std::move(*made);
+    else
+      failure = made.error();
     return static_cast<bool>(made);
   };
   const bool good = keep(gpu.vertices, stage_buffer(device, staging, scene.vertices, storage)) &&
@@ -212,7 +227,8 @@ Result<GpuScene> upload(Device& device, const Scene& scene) {
                     keep(gpu.materials, stage_buffer(device, staging, make_materials(scene), storage)) &&
                     keep(gpu.props, stage_buffer(device, staging, scene.prop_vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT)) &&
                     keep(gpu.prop_indices, stage_buffer(device, staging, scene.prop_indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT)) &&
-                    keep(gpu.albedo_maps, stage_layers(device, staging, scene, true)) && keep(gpu.surface_maps, stage_layers(device, staging, scene, false));
+                    keep(gpu.albedo_maps, stage_layers(device, staging, scene, true)) &&
+                    keep(gpu.surface_maps, stage_layers(device, staging, scene, false));
   if (!good) return failure;
   if (Status copied = run_copies(device, staging); !copied) return copied.error();
   return gpu;

@@ -17,7 +17,9 @@ vec3 sky_diffuse(vec3 n) {
   vec3 down = camera.ambient * vec3(0.34, 0.3, 0.26) + camera.sun_color * 0.022;
   return n.y > 0.0 ? mix(side, up, n.y) : mix(side, down, -n.y);
 }
-vec3 sky_specular(vec3 reflected, float roughness) { return mix(sky_radiance(reflected, false), sky_diffuse(reflected), clamp(roughness * 1.6, 0.0, 1.0)); }
+vec3 sky_specular(vec3 reflected, float roughness) {
+  return mix(sky_radiance(reflected, false), sky_diffuse(reflected), clamp(roughness * 1.6, 0.0, 1.0));
+}
 
 // How much of the environment a GGX surface reflects (Karis 2014).
 vec3 environment_brdf(vec3 f0, float roughness, float n_eye) {

@@ -10,16 +10,22 @@
 namespace rg::reference::glsl {
 
 using uint = uint32_t;
-using glm::vec2, glm::vec3, glm::vec4;
 using glm::dot;
+using glm::vec2, glm::vec3, glm::vec4;
 
 // GLSL's literals are floats, C++'s are doubles.
 template <class A, class B>
-auto max(A a, B b) { return static_cast<A>(b) > a ? static_cast<A>(b) : a; }
+auto max(A a, B b) {
+  return static_cast<A>(b) > a ? static_cast<A>(b) : a;
+}
 template <class A, class B>
-auto min(A a, B b) { return static_cast<A>(b) < a ? static_cast<A>(b) : a; }
+auto min(A a, B b) {
+  return static_cast<A>(b) < a ? static_cast<A>(b) : a;
+}
 template <class A, class B, class C>
-A clamp(A x, B low, C high) { return min(max(x, low), high); }
+A clamp(A x, B low, C high) {
+  return min(max(x, low), high);
+}
 inline float sqrt(float x) { return std::sqrt(x); }
 
 }  // namespace rg::reference::glsl

@@ -1,7 +1,8 @@
 // The culling passes on the GPU against brute force: depth range, z-bins, bit arrays, records.
+#include "tests/reference/culling.h"
+
 #include <bit>
 
-#include "tests/reference/culling.h"
 #include "tests/unit/frame/lab.h"
 
 namespace rg::test {
@@ -152,7 +153,9 @@ TEST(TileRecords, KeepTheLowestIndicesOnOverflow) {
 }
 
 TEST(MeshCull, DrawsWhateverHasAVertexInView) {
-  struct Arguments { uint32_t vertex_count, instance_count, first_vertex, first_instance; };
+  struct Arguments {
+    uint32_t vertex_count, instance_count, first_vertex, first_instance;
+  };
   Lab& lab = plaza_lab();
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     const FrameData data = lab.prepare(camera);

@@ -34,20 +34,43 @@ glm::vec4 decode_packed_float(uint32_t bits) { return glm::vec4(glm::unpackF2x11
 enum : uint32_t { kR8 = 9, kRgba8 = 37, kR16f = 76, kRg16 = 77, kRg16f = 83, kRgba16f = 97, kRg32f = 103, kR11g11b10f = 122, kD32f = 126 };
 
 glm::vec4 decode(uint32_t format, const std::byte* at) {
-  const auto word = [&](size_t i) { uint32_t v; std::memcpy(&v, at + 4 * i, 4); return v; };
-  const auto half = [&](size_t i) { uint16_t v; std::memcpy(&v, at + 2 * i, 2); return v; };
-  const auto number = [&](size_t i) { float v; std::memcpy(&v, at + 4 * i, 4); return v; };
+  const auto word = [&](size_t i) {
+    uint32_t v;
+    std::memcpy(&v, at + 4 * i, 4);
+    return v;
+  };
+  const auto half = [&](size_t i) {
+    uint16_t v;
+    std::memcpy(&v, at + 2 * i, 2);
+    return v;
+  };
+  const auto number = [&](size_t i) {
+    float v;
+    std::memcpy(&v, at + 4 * i, 4);
+    return v;
+  };
   switch (format) {
-    case kR8: return {static_cast<float>(at[0]) / 255, 0, 0, 1};
-    case kRgba8: return glm::unpackUnorm4x8(word(0));
-    case kR16f: return {glm::unpackHalf1x16(half(0)), 0, 0, 1};
-    case kRg16: return {static_cast<float>(half(0)) / 65535, static_cast<float>(half(1)) / 65535, 0, 1};
-    case kRg16f: return {glm::unpackHalf2x16(word(0)), 0, 1};
-    case kRgba16f: return {glm::unpackHalf2x16(word(0)), glm::unpackHalf2x16(word(1))};
-    case kRg32f: return {number(0), number(1), 0, 1};
-    case kR11g11b10f: return decode_packed_float(word(0));
-    case kD32f: return {number(0), 0, 0, 1};
-    default: ADD_FAILURE() << "no decoder for format " << format; return glm::vec4(0);
+    case kR8:
+      return {static_cast<float>(at[0]) / 255, 0, 0, 1};
+    case kRgba8:
+      return glm::unpackUnorm4x8(word(0));
+    case kR16f:
+      return {glm::unpackHalf1x16(half(0)), 0, 0, 1};
+    case kRg16:
+      return {static_cast<float>(half(0)) / 65535, static_cast<float>(half(1)) / 65535, 0, 1};
+    case kRg16f:
+      return {glm::unpackHalf2x16(word(0)), 0, 1};
+    case kRgba16f:
+      return {glm::unpackHalf2x16(word(0)), glm::unpackHalf2x16(word(1))};
+    case kRg32f:
+      return {number(0), number(1), 0, 1};
+    case kR11g11b10f:
+      return decode_packed_float(word(0));
+    case kD32f:
+      return {number(0), 0, 0, 1};
+    default:
+      ADD_FAILURE() << "no decoder for format " << format;
+      return glm::vec4(0);
   }
 }
 

@@ -18,7 +18,7 @@ using demo::Scene;
 
 constexpr uint32_t kWidth = 213, kHeight = 117;  // odd on purpose: partial tiles at both edges
 
-Device& device();          // shared by all tests; validates nothing
+Device& device();  // shared by all tests; validates nothing
 const Scene& plaza();
 Scene make_room(glm::vec3 glow);  // the camera sits in a closed box that does nothing but glow
 Scene make_floor();               // a grey floor of 12 x 12 metres below a camera, no lights, no sun
@@ -60,7 +60,9 @@ class Lab {
 Lab& plaza_lab();
 
 // What passes/culling/culling.rg calls TileRecord.
-struct Record { uint32_t count = 0, overflow = 0, light[64] = {}; };
+struct Record {
+  uint32_t count = 0, overflow = 0, light[64] = {};
+};
 
 // Index of the tile of `size` pixels that holds (x, y).
 inline size_t tile_of(int x, int y, int size, uint32_t width = kWidth) {

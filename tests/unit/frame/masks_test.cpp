@@ -11,9 +11,12 @@ namespace rg::test {
 namespace {
 
 namespace shader {
-using reference::glsl::uint, reference::glsl::vec3, reference::glsl::dot, reference::glsl::min, reference::glsl::max, reference::glsl::clamp, reference::glsl::sqrt;
+using reference::glsl::uint, reference::glsl::vec3, reference::glsl::dot, reference::glsl::min, reference::glsl::max, reference::glsl::clamp,
+    reference::glsl::sqrt;
 constexpr int ZBINS = frame::ZBINS;
-struct { float zbin_scale = 64; } camera;
+struct {
+  float zbin_scale = 64;
+} camera;
 #include "passes/culling/cone.glsl"
 #include "passes/culling/zbin.glsl"
 }  // namespace shader
@@ -21,7 +24,9 @@ struct { float zbin_scale = 64; } camera;
 using Random = std::mt19937;
 double between(Random& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
 
-struct Visits { uint64_t truth = 0, exact = 0, slide = 0, tile = 0; };
+struct Visits {
+  uint64_t truth = 0, exact = 0, slide = 0, tile = 0;
+};
 
 // Lights with random depth ranges, sorted; a pixel at a random depth in a tile with random bits.
 void count_scene(Random& random, Visits& visits) {
@@ -110,7 +115,8 @@ TEST(Cone, NeverRejectsWhatIntersects) {
     const bool touches = reference::cone_distance(center, angle, height) < radius * (1 - 1e-5);
     const bool kept = shader::cone_reaches(glm::vec3(0), glm::vec3(0, 0, 1), static_cast<float>(height), static_cast<float>(std::cos(angle)),
                                            static_cast<float>(std::sin(angle)), glm::vec3(center), static_cast<float>(radius));
-    ASSERT_TRUE(kept || !touches) << "angle " << angle << " height " << height << " radius " << radius << " at " << center.x << " " << center.y << " " << center.z;
+    ASSERT_TRUE(kept || !touches) << "angle " << angle << " height " << height << " radius " << radius << " at " << center.x << " " << center.y << " "
+                                  << center.z;
     intersecting += touches;
     rejected += !kept;
   }

@@ -10,7 +10,9 @@ namespace {
 namespace pass = frame::pass;
 namespace resource = frame::resource;
 
-struct Exposure { float scale, log_luminance, target, valid; };
+struct Exposure {
+  float scale, log_luminance, target, valid;
+};
 
 // A glow whose luminance is the middle of a histogram bin: bins are 16/127 of log2 apart from -10 on.
 float grey_of_bin(int bin) { return std::exp2(-10.0f + 16.0f * static_cast<float>(bin) / 127.0f); }
@@ -81,8 +83,7 @@ TEST(Resolve, OfAStillPictureIsThePicture) {
 
 double mean_difference(const Texels& a, const Texels& b) {
   double sum = 0;
-  for (size_t i = 0; i < a.data.size(); ++i)
-    sum += glm::length(rgb(a.data[i]) - rgb(b.data[i])) / (1 + glm::length(rgb(a.data[i])));
+  for (size_t i = 0; i < a.data.size(); ++i) sum += glm::length(rgb(a.data[i]) - rgb(b.data[i])) / (1 + glm::length(rgb(a.data[i])));
   return sum / static_cast<double>(a.data.size());
 }
 
@@ -129,7 +130,8 @@ TEST(Bloom, DownIsTheMeanOfFourTaps) {
   for (int y = 0; y < target.height; ++y)
     for (int x = 0; x < target.width; ++x) {
       const double u = (x + 0.5) * source.width / target.width, v = (y + 0.5) * source.height / target.height;
-      const glm::dvec3 expected = 0.25 * (sample(source, u - 1, v - 1) + sample(source, u + 1, v - 1) + sample(source, u - 1, v + 1) + sample(source, u + 1, v + 1));
+      const glm::dvec3 expected =
+          0.25 * (sample(source, u - 1, v - 1) + sample(source, u + 1, v - 1) + sample(source, u - 1, v + 1) + sample(source, u + 1, v + 1));
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(target.at(x, y)[c], expected[c], filter_error(source, 2 * x, 2 * y, 3)) << x << " " << y;
     }
 }
@@ -142,7 +144,8 @@ TEST(Bloom, NeitherAddsNorLosesLight) {
     for (const glm::vec4& texel : image.data) sum += rgb(texel);
     return sum / static_cast<double>(image.data.size());
   };
-  const glm::dvec3 first = mean(lab.image(data, pass::bloom_first, resource::bloom, 0)), whole = mean(lab.image(data, pass::bloom_up_5, resource::bloom, 0));
+  const glm::dvec3 first = mean(lab.image(data, pass::bloom_first, resource::bloom, 0)),
+                   whole = mean(lab.image(data, pass::bloom_up_5, resource::bloom, 0));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(whole[c], first[c], 0.05 * first[c]) << "channel " << c;
 }
 
@@ -159,7 +162,8 @@ TEST(ToneMap, IsTheReference) {
     for (int x = 0; x < color.width; ++x) {
       const glm::dvec3 glow = sample(bloom, (x + 0.5) * bloom.width / color.width, (y + 0.5) * bloom.height / color.height);
       const glm::dvec3 expected = 255.0 * reference::tone_map(glm::mix(rgb(color.at(x, y)), glow, 0.09) * static_cast<double>(scale));
-      for (int c = 0; c < 3; ++c) far_off += std::abs(picture.texels[static_cast<size_t>(y * color.width + x) * 4 + static_cast<size_t>(c)] - expected[c]) > 2.0;
+      for (int c = 0; c < 3; ++c)
+        far_off += std::abs(picture.texels[static_cast<size_t>(y * color.width + x) * 4 + static_cast<size_t>(c)] - expected[c]) > 2.0;
     }
   EXPECT_EQ(far_off, 0u);
 }

@@ -1,8 +1,8 @@
 // Deferred shading against a double-precision sum over all lights, and its light paths against each other.
 #include "tests/reference/shading.h"
 
-#include "tests/reference/culling.h"
 #include "examples/demo/mesh_builder.h"
+#include "tests/reference/culling.h"
 #include "tests/unit/frame/lab.h"
 
 namespace rg::test {
@@ -11,7 +11,9 @@ namespace {
 namespace pass = frame::pass;
 namespace resource = frame::resource;
 
-struct GBuffer { Texels depth, albedo, normal, material, emissive; };
+struct GBuffer {
+  Texels depth, albedo, normal, material, emissive;
+};
 GBuffer read_gbuffer(Lab& lab, const FrameData& data) {
   return {lab.image(data, pass::gbuffer_props, resource::depth), lab.image(data, pass::gbuffer_props, resource::albedo),
           lab.image(data, pass::gbuffer_props, resource::normal), lab.image(data, pass::gbuffer_props, resource::material),
@@ -21,7 +23,8 @@ GBuffer read_gbuffer(Lab& lab, const FrameData& data) {
 reference::SurfacePoint surface_at(const GBuffer& g, const FrameData& data, int x, int y) {
   reference::SurfacePoint s;
   s.position = reference::world_position(data.view, x, y, g.depth.at(x, y).x);
-  s.normal = reference::decode_normal(static_cast<uint16_t>(g.normal.at(x, y).x * 65535 + 0.5f), static_cast<uint16_t>(g.normal.at(x, y).y * 65535 + 0.5f));
+  s.normal =
+      reference::decode_normal(static_cast<uint16_t>(g.normal.at(x, y).x * 65535 + 0.5f), static_cast<uint16_t>(g.normal.at(x, y).y * 65535 + 0.5f));
   s.eye = glm::normalize(reference::to_double(data.view.position) - s.position);
   s.base = glm::dvec3(g.albedo.at(x, y));
   s.roughness = g.material.at(x, y).x;
@@ -33,8 +36,7 @@ void keep_lamps_only(FrameData& data) { data.view.sun_color = data.view.ambient 
 
 // Half precision rounds to 2^-11.
 void expect_close(const glm::vec4& actual, const glm::dvec3& expected, const glm::dvec3& slack, int x, int y) {
-  for (int i = 0; i < 3; ++i)
-    ASSERT_NEAR(actual[i], expected[i], 1e-3 * expected[i] + slack[i]) << "channel " << i << " of pixel " << x << " " << y;
+  for (int i = 0; i < 3; ++i) ASSERT_NEAR(actual[i], expected[i], 1e-3 * expected[i] + slack[i]) << "channel " << i << " of pixel " << x << " " << y;
 }
 
 TEST(DeferredLight, IsTheSumOverAllLamps) {
@@ -85,12 +87,14 @@ TEST(LightPaths, MaskedByZBinsOrNotTheImageIsTheSame) {
 double sun_visibility(const Texels& shadow, const FrameData& data, const reference::SurfacePoint& s, bool& certain) {
   const glm::dvec3 sun = reference::to_double(data.view.sun_direction);
   const double slant = 1 - std::clamp(glm::dot(s.normal, sun), 0.0, 1.0);
-  const glm::dvec3 at = reference::to_double(data.view.world_to_sun) * glm::dvec4(s.position + s.normal * (data.view.sun_texel * (0.6 + 1.8 * slant)), 1);
+  const glm::dvec3 at =
+      reference::to_double(data.view.world_to_sun) * glm::dvec4(s.position + s.normal * (data.view.sun_texel * (0.6 + 1.8 * slant)), 1);
   if (std::abs(at.x) > 1 || std::abs(at.y) > 1) return 1;
   const glm::dvec2 texel = (glm::dvec2(at) * 0.5 + 0.5) * static_cast<double>(shadow.width) - 0.5, base = glm::floor(texel), f = texel - base;
   double sum = 0;
   for (int k = 0; k < 4; ++k) {
-    const int u = std::clamp(static_cast<int>(base.x) + k % 2, 0, shadow.width - 1), v = std::clamp(static_cast<int>(base.y) + k / 2, 0, shadow.height - 1);
+    const int u = std::clamp(static_cast<int>(base.x) + k % 2, 0, shadow.width - 1),
+              v = std::clamp(static_cast<int>(base.y) + k / 2, 0, shadow.height - 1);
     const double difference = at.z + 0.0004 - shadow.at(u, v).x;
     if (std::abs(difference) < 2e-6) certain = false;
     const double weight = (k % 2 == 0 ? 1 - f.x : f.x) * (k / 2 == 0 ? 1 - f.y : f.y);

@@ -6,7 +6,9 @@
 namespace rg::test {
 namespace {
 
-struct Size { uint32_t width, height; };
+struct Size {
+  uint32_t width, height;
+};
 
 FrameData prepare(const Size& size, uint32_t number) {
   FrameSettings settings;
@@ -43,7 +45,8 @@ double share_different(const demo::Picture& a, const demo::Picture& b) {
   if (a.texels.size() != b.texels.size()) return 1;
   size_t different = 0;
   for (size_t i = 0; i < a.texels.size(); i += 4)
-    different += std::abs(a.texels[i] - b.texels[i]) > 2 || std::abs(a.texels[i + 1] - b.texels[i + 1]) > 2 || std::abs(a.texels[i + 2] - b.texels[i + 2]) > 2;
+    different +=
+        std::abs(a.texels[i] - b.texels[i]) > 2 || std::abs(a.texels[i + 1] - b.texels[i + 1]) > 2 || std::abs(a.texels[i + 2] - b.texels[i + 2]) > 2;
   return static_cast<double>(different) / static_cast<double>(a.texels.size() / 4);
 }
 
