@@ -42,9 +42,10 @@ const Row& row_of(const dsl::Pass& pass, Role role) {
 
 Stages vulkan_stages(uint32_t bits) {
   constexpr std::pair<uint32_t, Stages> kStages[] = {
-      {dsl::stage_vertex, stage::vertex_shader},     {dsl::stage_tess_control, stage::tess_control_shader}, {dsl::stage_tess_eval, stage::tess_eval_shader},
-      {dsl::stage_geometry, stage::geometry_shader}, {dsl::stage_fragment, stage::fragment_shader},         {dsl::stage_compute, stage::compute_shader},
-      {dsl::stage_transfer, stage::all_transfer},    {dsl::stage_host, stage::host},
+      {dsl::stage_vertex, stage::vertex_shader},       {dsl::stage_tess_control, stage::tess_control_shader},
+      {dsl::stage_tess_eval, stage::tess_eval_shader}, {dsl::stage_geometry, stage::geometry_shader},
+      {dsl::stage_fragment, stage::fragment_shader},   {dsl::stage_compute, stage::compute_shader},
+      {dsl::stage_transfer, stage::all_transfer},      {dsl::stage_host, stage::host},
   };
   Stages stages = 0;
   for (const auto& [bit, stage] : kStages)
@@ -57,8 +58,10 @@ Layout layout_for_aspect(Layout layout, uint32_t aspect) {
   const bool depth = aspect == aspect_depth, stencil = aspect == aspect_stencil;
   if (aspect == 0) return Layout::undefined;
   if (!depth && !stencil) return layout;
-  if (layout == Layout::shader_read_only || layout == Layout::depth_stencil_read_only) return depth ? Layout::depth_read_only : Layout::stencil_read_only;
-  if (layout == Layout::depth_stencil_attachment || layout == Layout::color_attachment) return depth ? Layout::depth_attachment : Layout::stencil_attachment;
+  if (layout == Layout::shader_read_only || layout == Layout::depth_stencil_read_only)
+    return depth ? Layout::depth_read_only : Layout::stencil_read_only;
+  if (layout == Layout::depth_stencil_attachment || layout == Layout::color_attachment)
+    return depth ? Layout::depth_attachment : Layout::stencil_attachment;
   return layout;
 }
 
@@ -99,15 +102,18 @@ Effect effect_of(const dsl::Pass& pass, const dsl::Access& access, uint32_t aspe
     case Role::copy_src:
     case Role::blit_src:
     case Role::depth_readonly:
-    case Role::host_read: return pick(row, stages, true, false, aspect);
+    case Role::host_read:
+      return pick(row, stages, true, false, aspect);
     case Role::resolve_dst:
     case Role::copy_dst:
     case Role::blit_dst:
     case Role::clear_dst:
     case Role::fill_dst:
     case Role::update_dst:
-    case Role::host_write: return pick(row, stages, false, true, aspect);
-    default: return pick(row, stages, access.mode != Mode::write, access.mode != Mode::read, aspect);
+    case Role::host_write:
+      return pick(row, stages, false, true, aspect);
+    default:
+      return pick(row, stages, access.mode != Mode::write, access.mode != Mode::read, aspect);
   }
 }
 
@@ -129,12 +135,16 @@ uint32_t usage_of(const dsl::Pass& pass, Role role, dsl::ResourceKind kind, uint
 uint32_t default_aspects(Role role, uint32_t format_aspects) {
   switch (role) {
     case Role::depth:
-    case Role::depth_readonly: return format_aspects & aspect_depth;
-    case Role::stencil: return format_aspects & aspect_stencil;
+    case Role::depth_readonly:
+      return format_aspects & aspect_depth;
+    case Role::stencil:
+      return format_aspects & aspect_stencil;
     case Role::sampled:
     case Role::storage:
-    case Role::input: return format_aspects & aspect_depth ? uint32_t{aspect_depth} : format_aspects;
-    default: return format_aspects;
+    case Role::input:
+      return format_aspects & aspect_depth ? uint32_t{aspect_depth} : format_aspects;
+    default:
+      return format_aspects;
   }
 }
 
@@ -167,9 +177,9 @@ Accesses supported_accesses(Stages stage) {
 // The graphics pipeline in its logical order; compute has only the indirect stage before it; all other stages stand alone.
 namespace {
 constexpr std::array<Stages, 11> kGraphics = {
-    stage::draw_indirect,    stage::index_input,     stage::vertex_attribute_input, stage::vertex_shader,   stage::tess_control_shader,
-    stage::tess_eval_shader, stage::geometry_shader, stage::early_fragment_tests,   stage::fragment_shader, stage::late_fragment_tests,
-    stage::color_attachment_output,
+    stage::draw_indirect,       stage::index_input,         stage::vertex_attribute_input,  stage::vertex_shader,
+    stage::tess_control_shader, stage::tess_eval_shader,    stage::geometry_shader,         stage::early_fragment_tests,
+    stage::fragment_shader,     stage::late_fragment_tests, stage::color_attachment_output,
 };
 }  // namespace
 

@@ -19,8 +19,14 @@ struct Random {
 class Annealer {
  public:
   Annealer(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t seed)
-      : problem_(problem), before_(predecessors(problem)), after_(successors(problem)), segments_(start), live_(count), items_of_(problem.nodes),
-        stamp_(problem.items.size()), random_{seed * 0x9E3779B97F4A7C15} {
+      : problem_(problem),
+        before_(predecessors(problem)),
+        after_(successors(problem)),
+        segments_(start),
+        live_(count),
+        items_of_(problem.nodes),
+        stamp_(problem.items.size()),
+        random_{seed * 0x9E3779B97F4A7C15} {
     for (uint32_t i = 0; i < problem.items.size(); ++i) {
       for (const uint32_t user : problem.items[i].users) items_of_[user].push_back(i);
       intervals_.push_back(interval_of(problem.items[i], segments_));
@@ -69,7 +75,7 @@ class Annealer {
     for (const auto& link : after_.of(node)) high = std::min(high, segments_[link.node] - link.gap);
     if (low < high && random_.below(4) != 0) return low + random_.below(high - low + 1);
     if (random_.below(2)) return std::min(high + 1, static_cast<uint32_t>(live_.size()) - 1);  // pushes its successors
-    return low > 0 ? low - 1 : low;                                                              // pushes its predecessors
+    return low > 0 ? low - 1 : low;                                                            // pushes its predecessors
   }
 
   void step() {
@@ -145,8 +151,13 @@ class Annealer {
   }
 
   static constexpr size_t kMostPushed = 64;
-  struct Moved { uint32_t node, from; };
-  struct Touched { uint32_t item; SegmentInterval was; };
+  struct Moved {
+    uint32_t node, from;
+  };
+  struct Touched {
+    uint32_t item;
+    SegmentInterval was;
+  };
   const SegmentProblem& problem_;
   SegmentLinks before_, after_;
   Segments segments_, best_;

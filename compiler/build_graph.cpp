@@ -12,8 +12,8 @@ struct Version {
   std::vector<uint32_t> readers;  // of the layout in force
   Share share = Share::none;
   Layout read_layout = Layout::undefined;
-  std::vector<uint32_t> earlier_readers;                 // of the layout before, same version
-  std::vector<uint32_t> base_writers, base_readers;      // of the version before, for further sharing writers
+  std::vector<uint32_t> earlier_readers;             // of the layout before, same version
+  std::vector<uint32_t> base_writers, base_readers;  // of the version before, for further sharing writers
 };
 
 class Builder {
@@ -47,7 +47,8 @@ class Builder {
 
   void read(const Use& use, Version& version) {
     depend_on_contents(version.writers, use);
-    if (!version.readers.empty() && version.read_layout != use.effect.layout) version.earlier_readers = std::move(version.readers), version.readers.clear();
+    if (!version.readers.empty() && version.read_layout != use.effect.layout)
+      version.earlier_readers = std::move(version.readers), version.readers.clear();
     depend(version.earlier_readers, use, DependencyKind::layout);
     version.read_layout = use.effect.layout;
     version.readers.push_back(use.pass);
@@ -77,11 +78,16 @@ auto sort_key(const Dependency& d) { return std::tuple(d.after, d.before, d.cell
 
 const char* name(DependencyKind kind) {
   switch (kind) {
-    case DependencyKind::read_after_write: return "read after write";
-    case DependencyKind::write_after_read: return "write after read";
-    case DependencyKind::write_after_write: return "write after write";
-    case DependencyKind::layout: return "layout";
-    case DependencyKind::order: return "order";
+    case DependencyKind::read_after_write:
+      return "read after write";
+    case DependencyKind::write_after_read:
+      return "write after read";
+    case DependencyKind::write_after_write:
+      return "write after write";
+    case DependencyKind::layout:
+      return "layout";
+    case DependencyKind::order:
+      return "order";
   }
   return "";
 }

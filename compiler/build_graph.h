@@ -16,7 +16,9 @@
 namespace rg::compiler {
 
 enum class DependencyKind : uint8_t {
-  read_after_write, write_after_read, write_after_write,
+  read_after_write,
+  write_after_read,
+  write_after_write,
   layout,  // two readers of one version that need different layouts
   order,   // `after`: in this order, without a barrier of its own
 };
@@ -30,8 +32,8 @@ struct Dependency {
 };
 
 struct Graph {
-  std::vector<Dependency> dependencies;     // by `after`, then `before`; one row a pair, cell and kind; before < after always
-  std::vector<std::vector<uint32_t>> last_writers;     // by cell: writers of the version that reaches the end of the frame
+  std::vector<Dependency> dependencies;             // by `after`, then `before`; one row a pair, cell and kind; before < after always
+  std::vector<std::vector<uint32_t>> last_writers;  // by cell: writers of the version that reaches the end of the frame
 };
 
 // Considers passes with live[pass] only. O(uses + dependencies); a version with r readers and w sharing writers has r * w of them.

@@ -25,7 +25,8 @@ class Marker {
     while (!pending_.empty()) {
       const uint32_t pass = pending_.back();
       pending_.pop_back();
-      for (const Dependency* d : needed_[pass]) mark(d->before, "`" + frame_.resource_of(d->cell).name + "` is used by `" + frame_.pass(pass).name + "`");
+      for (const Dependency* d : needed_[pass])
+        mark(d->before, "`" + frame_.resource_of(d->cell).name + "` is used by `" + frame_.pass(pass).name + "`");
     }
   }
 

@@ -12,7 +12,7 @@
 namespace rg::compiler {
 
 struct Liveness {
-  std::vector<bool> live;       // by pass of the frame
+  std::vector<bool> live;            // by pass of the frame
   std::vector<std::string> reasons;  // by pass: why it is kept or culled
 };
 

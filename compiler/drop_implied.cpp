@@ -47,10 +47,10 @@ class Chains {
 
 // An order that no barrier of its own realises any more, so that others must keep doing it.
 struct Claim {
-  Stages stage = 0;                 // of a command before group `first`
-  uint32_t first = 0, end = 0;      // groups that may order it
+  Stages stage = 0;             // of a command before group `first`
+  uint32_t first = 0, end = 0;  // groups that may order it
   Stages wanted = 0;
-  bool all = true;                  // all of `wanted` must come after it; or any
+  bool all = true;  // all of `wanted` must come after it; or any
 };
 
 bool holds(const Chains& chains, const Claim& claim) {

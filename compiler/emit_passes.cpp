@@ -38,7 +38,8 @@ uint64_t guard_bits(const dsl::Pass& pass) {
 
 Index engine_set_of(const dsl::Program& program, const std::string& bind) {
   if (bind.empty()) return kNone;
-  const auto found = std::find_if(program.engine_sets.begin(), program.engine_sets.end(), [&](const dsl::EngineSet& set) { return set.name == bind; });
+  const auto found =
+      std::find_if(program.engine_sets.begin(), program.engine_sets.end(), [&](const dsl::EngineSet& set) { return set.name == bind; });
   return found == program.engine_sets.end() ? kNone : static_cast<Index>(found - program.engine_sets.begin());
 }
 

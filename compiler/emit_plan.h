@@ -32,8 +32,8 @@ PlanData emit_plan(const PlanParts& parts);
 
 // Program index to plan index; kNone: the resource or pass is not in the plan.
 struct PlanIndices {
-  std::vector<Index> resource;  // by program resource
-  std::vector<Index> pass;      // by program pass
+  std::vector<Index> resource;     // by program resource
+  std::vector<Index> pass;         // by program pass
   std::vector<Index> update_slot;  // by program pass: of its first `update` transfer
 };
 

@@ -36,7 +36,8 @@ Resource make_row(const PlanParts& parts, uint32_t program_index, Expressions& e
   row.kind = static_cast<ResourceKind>(from.kind);
   row.lifetime = static_cast<rg::Lifetime>(from.lifetime);
   if (from.kind == dsl::ResourceKind::image) set_image(from, row);
-  if (from.kind == dsl::ResourceKind::buffer) row.bytes = exprs.binary(ExprOp::mul, index_of(from.count), exprs.constant(from.stride)), row.stride = from.stride;
+  if (from.kind == dsl::ResourceKind::buffer)
+    row.bytes = exprs.binary(ExprOp::mul, index_of(from.count), exprs.constant(from.stride)), row.stride = from.stride;
   row.copies = parts.frame.grids[program_index].ages;
   row.init = static_cast<InitKind>(from.init);
   row.init_value = plan_clear(from.init_value, row.aspects);

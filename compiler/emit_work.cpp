@@ -10,11 +10,16 @@ constexpr uint32_t kFullscreenVertices = 3;
 WorkKind draw_kind(const dsl::Draw& draw) {
   switch (draw.kind) {
     case dsl::DrawKind::fullscreen:
-    case dsl::DrawKind::direct: return WorkKind::draw;
-    case dsl::DrawKind::indirect: return draw.indexed ? WorkKind::draw_indexed_indirect : WorkKind::draw_indirect;
-    case dsl::DrawKind::indirect_count: return draw.indexed ? WorkKind::draw_indexed_indirect_count : WorkKind::draw_indirect_count;
-    case dsl::DrawKind::host: return WorkKind::host;
-    case dsl::DrawKind::none: break;
+    case dsl::DrawKind::direct:
+      return WorkKind::draw;
+    case dsl::DrawKind::indirect:
+      return draw.indexed ? WorkKind::draw_indexed_indirect : WorkKind::draw_indirect;
+    case dsl::DrawKind::indirect_count:
+      return draw.indexed ? WorkKind::draw_indexed_indirect_count : WorkKind::draw_indirect_count;
+    case dsl::DrawKind::host:
+      return WorkKind::host;
+    case dsl::DrawKind::none:
+      break;
   }
   return WorkKind::none;
 }
@@ -52,14 +57,19 @@ TransferKind transfer_kind(dsl::TransferKind kind, const dsl::Resource* src, con
     case dsl::TransferKind::copy:
       if (from_buffer) return to_buffer ? TransferKind::copy_buffer : TransferKind::copy_buffer_to_image;
       return to_buffer ? TransferKind::copy_image_to_buffer : TransferKind::copy_image;
-    case dsl::TransferKind::blit: return TransferKind::blit;
+    case dsl::TransferKind::blit:
+      return TransferKind::blit;
     case dsl::TransferKind::clear:
       if (to_buffer) return TransferKind::fill;
       return format_row(dst->format).aspects & aspect_color ? TransferKind::clear_color : TransferKind::clear_depth_stencil;
-    case dsl::TransferKind::fill: return TransferKind::fill;
-    case dsl::TransferKind::update: return TransferKind::update;
-    case dsl::TransferKind::resolve: return TransferKind::resolve;
-    case dsl::TransferKind::host: break;
+    case dsl::TransferKind::fill:
+      return TransferKind::fill;
+    case dsl::TransferKind::update:
+      return TransferKind::update;
+    case dsl::TransferKind::resolve:
+      return TransferKind::resolve;
+    case dsl::TransferKind::host:
+      break;
   }
   return TransferKind::copy_image;
 }

@@ -19,19 +19,22 @@ bool holds(const dsl::Guard& guard, const Configuration& configuration) {
 struct ByteInterval {
   uint64_t begin = 0, end = UINT64_MAX;
 };
-// Of an access to a buffer; nullopt where it depends on extents.
-std::optional<ByteInterval> constant_bytes(const dsl::Program& program, const dsl::Range& range) {
-  ByteInterval bytes;
-  if (range.offset.valid()) {
-    const auto offset = constant_value(program, range.offset);
-    if (!offset) return std::nullopt;
-    bytes.begin = static_cast<uint64_t>(*offset);
-  }
-  if (range.size.valid()) {
-    const auto size = constant_value(program, range.size);
-    if (!size) return std::nullopt;
-    bytes.end = bytes.begin + static_cast<uint64_t>(*size);
-  }
+// Size of a buffer, if it does not depend on extents.
+std::optional<uint64_t> constant_size(const dsl::Program& program, const dsl::Resource& resource) {
+  const auto count = constant_value(program, resource.count);
+  if (!count) return std::nullopt;
+  return static_cast<uint64_t>(*count) * resource.stride;
+}
+
+// Of an access to a buffer, everything from its size on being UINT64_MAX; nullopt where parts of it depend on extents.
+std::optional<ByteInterval> constant_bytes(const dsl::Program& program, const dsl::Resource& resource, const dsl::Range& range) {
+  if (!range.offset.valid() && !range.size.valid()) return ByteInterval{};
+  const auto total = constant_size(program, resource);
+  const auto offset = range.offset.valid() ? constant_value(program, range.offset) : 0;
+  const auto size = range.size.valid() ? constant_value(program, range.size) : INT64_MAX;
+  if (!total || !offset || !size) return std::nullopt;
+  ByteInterval bytes{static_cast<uint64_t>(*offset), static_cast<uint64_t>(*offset) + static_cast<uint64_t>(*size)};
+  if (bytes.end >= *total) bytes.end = UINT64_MAX;
   return bytes;
 }
 
@@ -58,7 +61,7 @@ void cut_grids(Frame& frame) {
     Grid& grid = frame.grids[access.resource.value];
     grid.ages = std::max({grid.ages, access.age + 1, resource.lifetime == dsl::Lifetime::history ? resource.history + 1 : 1});
     if (resource.kind == dsl::ResourceKind::buffer) {
-      const auto bytes = constant_bytes(*frame.program, access.range);
+      const auto bytes = constant_bytes(*frame.program, resource, access.range);
       if (!bytes) symbolic[access.resource.value] = true;
       if (bytes) grid.bytes.insert(grid.bytes.end(), {bytes->begin, bytes->end});
       return;
@@ -112,7 +115,8 @@ void merge_use(Use& use, const Use& other) {
 Use make_use(const Frame& frame, uint32_t pass_index, const dsl::Access& access, uint32_t cell_index, bool partial) {
   const dsl::Pass& pass = frame.pass(pass_index);
   const Cell& cell = frame.cells[cell_index];
-  Use use{pass_index, cell_index, effect_of(pass, access, cell.range.aspects), needs_contents(pass, access), defines_range(pass, access), Share::none};
+  Use use{pass_index, cell_index, effect_of(pass, access, cell.range.aspects), needs_contents(pass, access), defines_range(pass, access),
+          Share::none};
   if (use.writes() && (partial || may_skip(frame, pass_index, cell))) use.needs = true, use.defines = false;
   if (access.mode == dsl::Mode::atomic) use.share = Share::atomic;
   if (access.disjoint) use.share = Share::disjoint;
@@ -124,7 +128,7 @@ void add_uses(Frame& frame, uint32_t pass) {
   frame.first_use.push_back(static_cast<uint32_t>(first));
   for (const dsl::Access& access : frame.pass(pass).accesses) {
     const dsl::Resource& resource = (*frame.graph).resources[access.resource];
-    const bool partial = resource.kind == dsl::ResourceKind::buffer && !constant_bytes(*frame.program, access.range);
+    const bool partial = resource.kind == dsl::ResourceKind::buffer && !constant_bytes(*frame.program, resource, access.range);
     for (const uint32_t cell : cells_of(frame, access)) frame.uses.push_back(make_use(frame, pass, access, cell, partial));
   }
   const auto begin = frame.uses.begin() + static_cast<ptrdiff_t>(first);
@@ -164,7 +168,8 @@ void estimate_sizes(Frame& frame, const PlanOptions& options) {
       frame.bytes.push_back(align_up(image_bytes(resource, exprs, extents), options.image_alignment));
     else
       frame.bytes.push_back(
-          align_up(static_cast<uint64_t>(std::max<int64_t>(1, evaluate(exprs, index_of(resource.count), extents))) * resource.stride, options.buffer_alignment));
+          align_up(static_cast<uint64_t>(std::max<int64_t>(1, evaluate(exprs, index_of(resource.count), extents))) * resource.stride,
+                   options.buffer_alignment));
   }
 }
 
@@ -192,7 +197,7 @@ std::vector<uint32_t> cells_of(const Frame& frame, const dsl::Access& access) {
   const uint32_t first = grid.first_cell + access.age * grid.cells_per_age();
   std::vector<uint32_t> cells;
   if (resource.kind == dsl::ResourceKind::buffer) {
-    const ByteInterval bytes = constant_bytes(*frame.program, access.range).value_or(ByteInterval{});
+    const ByteInterval bytes = constant_bytes(*frame.program, resource, access.range).value_or(ByteInterval{});
     for (uint32_t i = 0; i + 1 < grid.bytes.size(); ++i)
       if (grid.bytes[i] >= bytes.begin && grid.bytes[i] < bytes.end) cells.push_back(first + i);
     if (grid.bytes.size() == 2) cells = {first};

@@ -25,8 +25,9 @@ void explain_passes(const PlanParts& parts, const Graph& graph, Decisions& out) 
     if (!parts.liveness.live[pass]) continue;
     const std::string where = fmt::format("after group {}", parts.schedule.segment_of[pass]);
     if (const Dependency* d = binding[pass])
-      out.push_back({name, "scheduled", fmt::format("{}: {} on `{}` with `{}` just before", where, rg::compiler::name(d->kind),
-                                                    frame.resource_of(d->cell).name, frame.pass(d->before).name)});
+      out.push_back({name, "scheduled",
+                     fmt::format("{}: {} on `{}` with `{}` just before", where, rg::compiler::name(d->kind), frame.resource_of(d->cell).name,
+                                 frame.pass(d->before).name)});
     else
       out.push_back({name, "scheduled", where + ": nothing just before it binds it; chosen for memory"});
   }
@@ -36,8 +37,9 @@ void explain_memory(const PlanParts& parts, Decisions& out) {
   for (uint32_t r = 0; r < parts.lifetimes.size(); ++r) {
     const Lifetime& life = parts.lifetimes[r];
     if (!life.used()) continue;
-    out.push_back({parts.frame.graph->resources.rows[r].name, "placed",
-                   fmt::format("at {} with {} bytes, live between groups {} and {}", parts.memory.offsets[r], parts.frame.bytes[r], life.begin, life.end)});
+    out.push_back(
+        {parts.frame.graph->resources.rows[r].name, "placed",
+         fmt::format("at {} with {} bytes, live between groups {} and {}", parts.memory.offsets[r], parts.frame.bytes[r], life.begin, life.end)});
   }
 }
 

@@ -5,16 +5,26 @@ namespace {
 
 ExprOp convert(dsl::ExprOp op) {
   switch (op) {
-    case dsl::ExprOp::constant: return ExprOp::constant;
-    case dsl::ExprOp::extent: return ExprOp::extent;
-    case dsl::ExprOp::add: return ExprOp::add;
-    case dsl::ExprOp::sub: return ExprOp::sub;
-    case dsl::ExprOp::mul: return ExprOp::mul;
-    case dsl::ExprOp::floor_div: return ExprOp::floor_div;
-    case dsl::ExprOp::ceil_div: return ExprOp::ceil_div;
-    case dsl::ExprOp::min: return ExprOp::min;
-    case dsl::ExprOp::max: return ExprOp::max;
-    case dsl::ExprOp::mip: return ExprOp::mip;
+    case dsl::ExprOp::constant:
+      return ExprOp::constant;
+    case dsl::ExprOp::extent:
+      return ExprOp::extent;
+    case dsl::ExprOp::add:
+      return ExprOp::add;
+    case dsl::ExprOp::sub:
+      return ExprOp::sub;
+    case dsl::ExprOp::mul:
+      return ExprOp::mul;
+    case dsl::ExprOp::floor_div:
+      return ExprOp::floor_div;
+    case dsl::ExprOp::ceil_div:
+      return ExprOp::ceil_div;
+    case dsl::ExprOp::min:
+      return ExprOp::min;
+    case dsl::ExprOp::max:
+      return ExprOp::max;
+    case dsl::ExprOp::mip:
+      return ExprOp::mip;
   }
   return ExprOp::constant;
 }

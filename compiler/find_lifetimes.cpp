@@ -11,7 +11,8 @@ Lifetimes find_lifetimes(const Frame& frame, const Schedule& schedule, const std
     if (resource.lifetime != dsl::Lifetime::transient) continue;
     Lifetime& life = lifetimes[frame.cells[line.cell].resource];
     if (!life.used()) life = {schedule.segments, 0};
-    for (const Epoch& epoch : line.epochs) life.begin = std::min(life.begin, epoch.first_segment), life.end = std::max(life.end, epoch.last_segment + 1);
+    for (const Epoch& epoch : line.epochs)
+      life.begin = std::min(life.begin, epoch.first_segment), life.end = std::max(life.end, epoch.last_segment + 1);
     if (resource.no_alias || !options.aliasing) life = {0, schedule.segments};
   }
   return lifetimes;

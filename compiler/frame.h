@@ -22,7 +22,7 @@ namespace rg::compiler {
 struct Cell {
   uint32_t resource = 0;  // program index
   uint32_t age = 0;
-  Range range;                       // images: exact counts, never kRemaining
+  Range range;                           // images: exact counts, never kRemaining
   uint64_t begin = 0, end = UINT64_MAX;  // buffers: bytes, the last cell ends at UINT64_MAX
   friend bool operator==(const Cell&, const Cell&) = default;
 };
@@ -51,12 +51,12 @@ struct Grid {
 struct Frame {
   const dsl::Program* program = nullptr;
   const dsl::Graph* graph = nullptr;
-  std::vector<uint32_t> passes;      // program indices of passes whose guard holds, in program order; "pass" below is an index into this
-  std::vector<Grid> grids;           // by program resource
+  std::vector<uint32_t> passes;  // program indices of passes whose guard holds, in program order; "pass" below is an index into this
+  std::vector<Grid> grids;       // by program resource
   std::vector<Cell> cells;
-  std::vector<Use> uses;             // by pass, then cell
-  std::vector<uint32_t> first_use;   // by pass, one more at the end
-  std::vector<uint64_t> bytes;       // estimated size by program resource, one copy
+  std::vector<Use> uses;            // by pass, then cell
+  std::vector<uint32_t> first_use;  // by pass, one more at the end
+  std::vector<uint64_t> bytes;      // estimated size by program resource, one copy
   const dsl::Pass& pass(uint32_t index) const { return graph->passes.rows[passes[index]]; }
   const dsl::Resource& resource_of(uint32_t cell) const { return graph->resources.rows[cells[cell].resource]; }
   std::span<const Use> uses_of(uint32_t pass) const { return {uses.data() + first_use[pass], first_use[pass + 1] - first_use[pass]}; }

@@ -68,7 +68,8 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   schedule.segment_of.assign(live.size(), UINT32_MAX);
   for (uint32_t node = 0; node < problem.nodes; ++node) schedule.segment_of[numbering.pass_of[node]] = segments[node];
   schedule.order = numbering.pass_of;
-  std::stable_sort(schedule.order.begin(), schedule.order.end(), [&](uint32_t a, uint32_t b) { return schedule.segment_of[a] < schedule.segment_of[b]; });
+  std::stable_sort(schedule.order.begin(), schedule.order.end(),
+                   [&](uint32_t a, uint32_t b) { return schedule.segment_of[a] < schedule.segment_of[b]; });
   const SegmentCost cost = cost_of(problem, segments), before = cost_of(problem, program_order);
   schedule.segments = cost.segments;
   schedule.peak_bytes = cost.peak;

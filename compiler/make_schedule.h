@@ -18,7 +18,7 @@ struct Schedule {
   std::vector<uint32_t> order;       // live passes as they are recorded
   std::vector<uint32_t> segment_of;  // by pass of the frame; UINT32_MAX: culled
   uint32_t segments = 0;
-  uint64_t peak_bytes = 0;           // live transient bytes
+  uint64_t peak_bytes = 0;  // live transient bytes
   std::string chosen_because;
 };
 

@@ -9,13 +9,11 @@ namespace {
 // Everything but the place within the resource.
 auto meaning(const Frame& frame, const CellBarrier& b) {
   const Cell& cell = frame.cells[b.cell];
-  return std::tuple(cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout, b.new_layout, b.tag,
-                    b.is_acquire, b.wraps);
+  return std::tuple(cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout, b.new_layout,
+                    b.tag, b.is_acquire, b.wraps);
 }
 
-void absorb(CellBarrier& into, CellBarrier& other) {
-  into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end());
-}
+void absorb(CellBarrier& into, CellBarrier& other) { into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end()); }
 
 bool join_layers(CellBarrier& a, CellBarrier& b) {
   if (a.range.mip != b.range.mip || a.range.mips != b.range.mips || a.range.layer + a.range.layers != b.range.layer) return false;

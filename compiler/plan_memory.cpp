@@ -11,7 +11,8 @@ std::vector<AliasPair> list_pairs(const Lifetimes& lifetimes, const std::vector<
   std::vector<AliasPair> pairs;
   for (const uint32_t after : used)
     for (const uint32_t before : used)
-      if (before != after && disjoint(lifetimes[before], lifetimes[after])) pairs.push_back({before, after, lifetimes[after].begin < lifetimes[before].end});
+      if (before != after && disjoint(lifetimes[before], lifetimes[after]))
+        pairs.push_back({before, after, lifetimes[after].begin < lifetimes[before].end});
   return pairs;
 }
 

@@ -9,9 +9,9 @@
 namespace rg::compiler {
 
 struct MemoryPlan {
-  std::vector<uint64_t> offsets;      // by program resource; meaningful where the lifetime is used
-  std::vector<AliasPair> alias_pairs; // resources by program index, sorted
-  bool alias_by_lifetime = false;     // too many to list
+  std::vector<uint64_t> offsets;       // by program resource; meaningful where the lifetime is used
+  std::vector<AliasPair> alias_pairs;  // resources by program index, sorted
+  bool alias_by_lifetime = false;      // too many to list
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;
 };
 

@@ -25,15 +25,18 @@ uint32_t count_of(const Segments& segments) { return segments.empty() ? 0 : *std
 }  // namespace
 
 SegmentLinks predecessors(const SegmentProblem& problem) {
-  return adjacency(problem, [](const auto& e) { return e.after; }, [](const auto& e) { return e.before; });
+  return adjacency(
+      problem, [](const auto& e) { return e.after; }, [](const auto& e) { return e.before; });
 }
 SegmentLinks successors(const SegmentProblem& problem) {
-  return adjacency(problem, [](const auto& e) { return e.before; }, [](const auto& e) { return e.after; });
+  return adjacency(
+      problem, [](const auto& e) { return e.before; }, [](const auto& e) { return e.after; });
 }
 
 SegmentInterval interval_of(const SegmentProblem::Item& item, const Segments& segments) {
   SegmentInterval interval;
-  for (const uint32_t user : item.users) interval.begin = std::min(interval.begin, segments[user]), interval.end = std::max(interval.end, segments[user]);
+  for (const uint32_t user : item.users)
+    interval.begin = std::min(interval.begin, segments[user]), interval.end = std::max(interval.end, segments[user]);
   return interval;
 }
 
@@ -106,7 +109,10 @@ Segments compact_segments(const SegmentProblem& problem, const Segments& segment
   for (const auto& segment : nodes) {
     for (const uint32_t node : segment)
       for (const auto& link : before.of(node))
-        if (link.gap == 1 && result[link.node] == current) { current = current + 1; break; }
+        if (link.gap == 1 && result[link.node] == current) {
+          current = current + 1;
+          break;
+        }
     for (const uint32_t node : segment) result[node] = current;
   }
   return result;

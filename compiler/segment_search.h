@@ -22,7 +22,7 @@ struct SegmentProblem {
     uint64_t bytes = 0;
     std::vector<uint32_t> users;
   };
-  uint32_t nodes = 0;       // numbered in a legal order: before < after for every edge
+  uint32_t nodes = 0;  // numbered in a legal order: before < after for every edge
   std::vector<Edge> edges;
   std::vector<Item> items;
 };

@@ -11,8 +11,8 @@ namespace {
 struct Side {
   Effect effect;
   bool writes = false;
-  bool defined = true;   // holds contents
-  bool needs = false;    // as the later side: depends on contents
+  bool defined = true;  // holds contents
+  bool needs = false;   // as the later side: depends on contents
   std::vector<Event> events;
   bool skippable = false;  // every use may be skipped, so that what came before meets what comes after
   Effect seen = {};        // as the later side: reads the contents are already visible to
@@ -49,11 +49,19 @@ class Synchroniser {
     find_first_segments(lines);
     for (const Line& line : lines) {
       switch (frame_.resource_of(line.cell).lifetime) {
-        case dsl::Lifetime::transient: transient(line); break;
+        case dsl::Lifetime::transient:
+          transient(line);
+          break;
         case dsl::Lifetime::history:
-        case dsl::Lifetime::persistent: circle(line); break;
-        case dsl::Lifetime::imported: imported(line); break;
-        case dsl::Lifetime::readback: readback(line); break;
+        case dsl::Lifetime::persistent:
+          circle(line);
+          break;
+        case dsl::Lifetime::imported:
+          imported(line);
+          break;
+        case dsl::Lifetime::readback:
+          readback(line);
+          break;
       }
     }
     place_exits();
@@ -62,7 +70,8 @@ class Synchroniser {
 
  private:
   Side side_of(uint32_t cell, const Epoch& epoch, bool defined) const {
-    const bool skippable = std::all_of(epoch.events.begin(), epoch.events.end(), [&](const Event& event) { return may_skip(frame_, event.pass, frame_.cells[cell]); });
+    const bool skippable =
+        std::all_of(epoch.events.begin(), epoch.events.end(), [&](const Event& event) { return may_skip(frame_, event.pass, frame_.cells[cell]); });
     return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events, skippable, {}};
   }
 
@@ -298,7 +307,8 @@ class Synchroniser {
     const bool joins = !last.writes && whole.epochs.size() > 1;
     if (joins) merge(last.covered, host);
     connect_within(whole, false);
-    if (!joins) exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
+    if (!joins)
+      exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
     boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
     boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
   }

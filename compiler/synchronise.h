@@ -6,8 +6,8 @@
 //   write after read    execution of the reads         execution of the write
 //   new layout          as above                       also accesses: the transition itself writes
 //
-// A barrier stands in the group before the segment of its first user. Old contents that nobody needs are discarded (old layout undefined). All discards
-// of one transient stand in the group where it is acquired, so that memory changes hands at one place.
+// A barrier stands in the group before the segment of its first user. Old contents that nobody needs are discarded (old layout undefined). All
+// discards of one transient stand in the group where it is acquired, so that memory changes hands at one place.
 //
 // Across frames: frames follow each other on one queue, so the last epoch of a cell precedes its first epoch of the next frame. Transients and dead
 // copies enter undefined, after the last users of the frame before. Imported resources enter in their declared `before` state and leave in `after`.
@@ -26,17 +26,17 @@
 namespace rg::compiler {
 
 struct CellBarrier {
-  uint32_t cell = 0;     // with its age
-  Range range;           // as merged; equals the cell's at first
+  uint32_t cell = 0;  // with its age
+  Range range;        // as merged; equals the cell's at first
   uint64_t begin = 0, end = 0;
   Stages src_stages = 0, dst_stages = 0;
   Accesses src_accesses = 0, dst_accesses = 0;
   Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
   BarrierTag tag = BarrierTag::hazard;
-  bool is_acquire = false;        // first use of a transient
-  bool wraps = false;             // its first scope lies in the frame before
-  std::vector<Event> sources;     // what must have happened
-  std::string reason;             // "read after write"
+  bool is_acquire = false;     // first use of a transient
+  bool wraps = false;          // its first scope lies in the frame before
+  std::vector<Event> sources;  // what must have happened
+  std::string reason;          // "read after write"
 };
 
 struct CellBoundary {
@@ -47,7 +47,7 @@ struct CellBoundary {
 struct SyncPlan {
   std::vector<std::vector<CellBarrier>> groups;  // groups[s] stands before segment s; the last one ends the frame
   std::vector<CellBoundary> entry, exit;
-  std::vector<Acquire> acquires;                 // resources by program index; image barriers filled when the plan is emitted
+  std::vector<Acquire> acquires;  // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
 };
 

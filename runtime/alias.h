@@ -115,11 +115,11 @@ inline void find_hand_offs(const Plan& plan, std::span<const Placed> placed, Han
       if (place.bytes == 0) continue;
       Stages stages = 0;
       Accesses accesses = 0;
-      owners.take(place.offset, place.bytes, acquire->resource, [&](Index before) {
-        stages |= release_of[before]->stages, accesses |= release_of[before]->accesses;
-      });
+      owners.take(place.offset, place.bytes, acquire->resource,
+                  [&](Index before) { stages |= release_of[before]->stages, accesses |= release_of[before]->accesses; });
       if (!emit || stages == 0) continue;
-      if (out.groups.empty() || out.groups.back().group != acquire->group) out.groups.push_back({acquire->group, {0, 0, 0, 0, BarrierTag::alias_pair}});
+      if (out.groups.empty() || out.groups.back().group != acquire->group)
+        out.groups.push_back({acquire->group, {0, 0, 0, 0, BarrierTag::alias_pair}});
       MemoryBarrier& memory = out.groups.back().memory;
       memory.src_stages |= stages, memory.src_accesses |= accesses;
       memory.dst_stages |= acquire->stages, memory.dst_accesses |= acquire->accesses;

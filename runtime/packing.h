@@ -8,8 +8,8 @@
 //     +---+---+---+---+--> time
 //
 // Method (measured against every published planner we know of): decode "lowest offset first": always place the item whose lowest legal offset
-// is smallest, ties by a static order; eight orders; then first and best fit by size, life and area; then swaps of ranks under a budget. Every stage stops
-// at the lower bound. Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
+// is smallest, ties by a static order; eight orders; then first and best fit by size, life and area; then swaps of ranks under a budget. Every stage
+// stops at the lower bound. Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
 //
 // Header only, standard library only: compiler and runtime place with the same code.
 #pragma once
@@ -27,8 +27,8 @@ namespace rg::packing {
 
 struct Item {
   uint64_t bytes = 0;
-  uint64_t alignment = 1;           // any positive number
-  uint32_t begin = 0, end = 1;      // half-open life; begin < end
+  uint64_t alignment = 1;       // any positive number
+  uint32_t begin = 0, end = 1;  // half-open life; begin < end
 };
 using Conflict = std::pair<uint32_t, uint32_t>;  // two items that must not share bytes, in any order
 
@@ -60,27 +60,31 @@ inline Neighbours neighbours(size_t count, const std::vector<Conflict>& conflict
   return result;
 }
 
-// Pairs whose lives meet. O(n log n + pairs).
-inline std::vector<Conflict> meeting_pairs(std::span<const Item> items) {
+// Items by begin, and visits each pair whose lives meet until `visit` gives false. O(n log n + pairs).
+template <class Visit>
+bool for_each_meeting_pair(std::span<const Item> items, Visit visit) {
   std::vector<uint32_t> by_begin(items.size());
   std::iota(by_begin.begin(), by_begin.end(), 0u);
   std::stable_sort(by_begin.begin(), by_begin.end(), [&](uint32_t a, uint32_t b) { return items[a].begin < items[b].begin; });
-  std::vector<Conflict> pairs;
   std::vector<uint32_t> alive;
   for (const uint32_t item : by_begin) {
     std::erase_if(alive, [&](uint32_t other) { return items[other].end <= items[item].begin; });
-    for (const uint32_t other : alive) pairs.emplace_back(other, item);
+    for (const uint32_t other : alive)
+      if (!visit(other, item)) return false;
     alive.push_back(item);
   }
-  return pairs;
+  return true;
 }
+
+// Beyond this many pairs the conflict lists cost more than they are worth; see Skyline.
+inline constexpr size_t kMostPairs = 4'000'000;
 
 inline uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
 // Live bytes at each distinct time, for bounds and orders.
 struct Load {
-  std::vector<uint32_t> times;   // sorted begins and ends
-  std::vector<uint64_t> live;    // in [times[i], times[i + 1])
+  std::vector<uint32_t> times;  // sorted begins and ends
+  std::vector<uint64_t> live;   // in [times[i], times[i + 1])
   uint64_t peak = 0;
   size_t at(uint32_t time) const { return static_cast<size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin()); }
 };
@@ -90,7 +94,8 @@ inline Load load_of(std::span<const Item> items) {
   std::sort(load.times.begin(), load.times.end());
   load.times.erase(std::unique(load.times.begin(), load.times.end()), load.times.end());
   std::vector<int64_t> change(load.times.size() + 1);
-  for (const Item& item : items) change[load.at(item.begin)] += static_cast<int64_t>(item.bytes), change[load.at(item.end)] -= static_cast<int64_t>(item.bytes);
+  for (const Item& item : items)
+    change[load.at(item.begin)] += static_cast<int64_t>(item.bytes), change[load.at(item.end)] -= static_cast<int64_t>(item.bytes);
   int64_t now = 0;
   for (size_t i = 0; i < load.times.size(); ++i) {
     now += change[i];
@@ -136,6 +141,59 @@ inline Order sorted(size_t count, std::initializer_list<const std::vector<uint64
   return order;
 }
 
+// Heights over time, for crowds: each item lies on the highest of what lives with it. O(log n) an item, whatever the number of pairs.
+class Skyline {
+ public:
+  explicit Skyline(size_t times) : size_(std::max<size_t>(times, 1)), height_(4 * size_, 0), assigned_(4 * size_, 0) {}
+
+  uint64_t highest(size_t begin, size_t end) const { return highest(1, 0, size_, begin, end); }
+  void raise(size_t begin, size_t end, uint64_t height) { raise(1, 0, size_, begin, end, height); }
+
+ private:
+  uint64_t highest(size_t node, size_t low, size_t high, size_t begin, size_t end) const {
+    if (end <= low || high <= begin) return 0;
+    if (begin <= low && high <= end) return height_[node];
+    const size_t middle = (low + high) / 2;
+    const uint64_t below = std::max(highest(2 * node, low, middle, begin, end), highest(2 * node + 1, middle, high, begin, end));
+    return std::max(assigned_[node], below);
+  }
+  // New heights are never below those they replace, so marks need not be pushed down: the greatest mark on the way counts.
+  void raise(size_t node, size_t low, size_t high, size_t begin, size_t end, uint64_t height) {
+    if (end <= low || high <= begin) return;
+    height_[node] = std::max(height_[node], height);
+    if (begin <= low && high <= end) {
+      assigned_[node] = std::max(assigned_[node], height);
+      return;
+    }
+    const size_t middle = (low + high) / 2;
+    raise(2 * node, low, middle, begin, end, height);
+    raise(2 * node + 1, middle, high, begin, end, height);
+  }
+  size_t size_;
+  std::vector<uint64_t> height_, assigned_;
+};
+
+inline Placement pack_crowd(std::span<const Item> items) {
+  const Load load = load_of(items);
+  const std::vector<uint64_t> greatest = greatest_load(items, load);
+  std::vector<uint64_t> area, early;
+  for (const Item& item : items)
+    area.push_back(item.bytes * (item.end - item.begin)), early.push_back(std::numeric_limits<uint32_t>::max() - item.begin);
+  Placement best{{}, std::numeric_limits<uint64_t>::max(), load.peak};
+  for (const Order& order : {sorted(items.size(), {&greatest, &area}), sorted(items.size(), {&early, &area}), sorted(items.size(), {&area})}) {
+    Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
+    Skyline skyline(load.times.size());
+    for (const uint32_t i : order) {
+      const size_t begin = load.at(items[i].begin), end = load.at(items[i].end);
+      placement.offsets[i] = align_up(skyline.highest(begin, end), items[i].alignment);
+      skyline.raise(begin, end, placement.offsets[i] + items[i].bytes);
+      placement.heap_bytes = std::max(placement.heap_bytes, placement.offsets[i] + items[i].bytes);
+    }
+    if (placement.heap_bytes < best.heap_bytes) best = std::move(placement);
+  }
+  return best;
+}
+
 class Packer {
  public:
   Packer(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t lower_bound, uint64_t effort)
@@ -149,7 +207,7 @@ class Packer {
     const Measures m = measure();
     const size_t n = items_.size();
     const auto& [T, Z, W, A] = m;
-    const Order skyline[] = {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}),     sorted(n, {&Z}),
+    const Order skyline[] = {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}), sorted(n, {&Z}),
                              sorted(n, {&W, &A, &T}), sorted(n, {&T, &Z}),     sorted(n, {&W}), sorted(n, {&Z, &W})};
     for (const Order& order : skyline) {
       if (done()) return std::move(best_);
@@ -287,7 +345,13 @@ inline uint64_t lower_bound(std::span<const Item> items) { return detail::load_o
 
 // Items conflict where their lives meet.
 inline Placement pack(std::span<const Item> items, uint64_t effort = kDefaultEffort) {
-  return detail::Packer(items, detail::meeting_pairs(items), lower_bound(items), effort).run();
+  std::vector<Conflict> pairs;
+  const bool listed = detail::for_each_meeting_pair(items, [&](uint32_t a, uint32_t b) {
+    pairs.emplace_back(a, b);
+    return pairs.size() < detail::kMostPairs;
+  });
+  if (!listed) return detail::pack_crowd(items);
+  return detail::Packer(items, pairs, lower_bound(items), effort).run();
 }
 
 // Items conflict where `conflicts` says so, whatever their lives, which then serve as hints. Every pair whose lives meet should be among them:
