@@ -83,6 +83,22 @@ TEST(LightPaths, MaskedByZBinsOrNotTheImageIsTheSame) {
   }
 }
 
+TEST(LightPaths, RecordsGiveTheSameImageWhereNoneOverflows) {
+  Lab& lab = plaza_lab();
+  for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
+    FrameData data = lab.prepare(camera);
+    const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
+    const Texels by_record = lab.image(data, pass::deferred_light, resource::hdr);
+    data.view.light_path = static_cast<uint32_t>(frame::LIGHT_PATH_ALL);
+    const Texels by_all = lab.image(data, pass::deferred_light, resource::hdr);
+    uint32_t different = 0;
+    for (int y = 0; y < by_all.height; ++y)
+      for (int x = 0; x < by_all.width; ++x)
+        different += records[tile_of(x, y, frame::SHADE_TILE)].overflow == 0 && by_record.at(x, y) != by_all.at(x, y);
+    EXPECT_EQ(different, 0u) << plaza().cameras[camera].name;
+  }
+}
+
 // What the shader does with the shadow map, in double. `certain` is false where a compare is too close to call.
 double sun_visibility(const Texels& shadow, const FrameData& data, const reference::SurfacePoint& s, bool& certain) {
   const glm::dvec3 sun = reference::to_double(data.view.sun_direction);
