@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "compiler/verify/boundary.h"
 
@@ -14,6 +15,7 @@ struct Replay {
   History history;
   std::vector<CellState> cells;
   SyncResult result;
+  std::vector<bool> used;  // by cell of copy 0
   uint32_t frame = 0;
 
   Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}, {}} {}
@@ -285,6 +287,7 @@ void hand_over(Replay& replay, const Acquire& acquire) {
     if (expand_stages(acquire.stages) & stage_bit(s)) write.visible[s] = expand_accesses(acquire.accesses) & supported(s);
   const uint32_t r = replay.model.input->program_resource[acquire.resource];
   for (uint32_t c = 0; c < replay.model.resources[r].partition.cell_count(); ++c) {
+    if (!replay.used[replay.model.cell(r, 0, c)]) continue;
     CellState& state = replay.cells[replay.physical(r, 0, c)];
     advance(replay.history, state);
     state.writes.push_back(write);
@@ -343,25 +346,42 @@ void check_host_reads(Replay& replay, uint32_t r, uint32_t c) {
   }
 }
 
-// What the exit state promises rests on these proofs.
 const Reach& reach_of(const ReadRecord& read) { return read.reach(); }
 const Reach& reach_of(const WriteRecord& write) { return write.reach; }
+
+// That one of `stages` comes after the record: what all ways to it use.
 template <class Record>
-void require_reach(Replay& replay, const Record& record, StageSet stages) {
-  for (uint32_t s = 0; s < kStageCount; ++s)
-    if (reach_of(record).stages & stages & stage_bit(s)) replay.require(proof_of_reach(record, s));
+void require_one_of(Replay& replay, const Record& record, StageSet stages) {
+  std::optional<Proof> common;
+  for (uint32_t s = 0; s < kStageCount; ++s) {
+    if (!(reach_of(record).stages & stages & stage_bit(s))) continue;
+    const Proof proof = proof_of_reach(record, s);
+    if (!common) common = proof;
+    std::erase_if(*common, [&](Atom atom) { return !std::binary_search(proof.begin(), proof.end(), atom); });
+  }
+  if (common) replay.require(*common);
 }
 
+void require_write(Replay& replay, const WriteRecord& write, const Pending& pending) {
+  // Were it not available, it would be among the writes the state names.
+  if (write.stage < kStageCount && (pending.accesses[write.stage] & access_bit(write.access))) return;
+  StageSet writers = 0;
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (pending.accesses[s] & kAllWrites) writers |= stage_bit(s);
+  if (writers != 0) return require_one_of(replay, write, with_earlier(writers));
+  for (uint32_t s = 0; s < kStageCount; ++s) {
+    if (pending.stages & stage_bit(s)) require_one_of(replay, write, with_earlier(stage_bit(s)));
+    for (uint32_t a = 0; a < kAccessCount && !pending.discard; ++a)
+      if (pending.accesses[s] & kAllReads & write.visible[s] & access_bit(a)) replay.require(proof_of_visible(write, s, a));
+  }
+}
+
+// What the exit state promises rests on these proofs.
 void require_all(Replay& replay, const CellState& state, const Pending& pending) {
   for (const ReadRecord& read : state.reads)
-    if (!(with_earlier(pending.stages) & stage_bit(read.stage))) require_reach(replay, read, with_earlier(pending.stages));
-  for (const WriteRecord& write : state.writes) {
-    if (!write.available) continue;
-    require_reach(replay, write, pending.stages);
-    for (uint32_t s = 0; s < kStageCount && !pending.has_writes(); ++s)
-      for (uint32_t a = 0; a < kAccessCount; ++a)
-        if (pending.accesses[s] & kAllReads & access_bit(a)) replay.require(proof_of_visible(write, s, a));
-  }
+    if (!(with_earlier(pending.stages) & stage_bit(read.stage))) require_one_of(replay, read, with_earlier(pending.stages));
+  for (const WriteRecord& write : state.writes)
+    if (write.available) require_write(replay, write, pending);
   if (state.layout_scope != kNone && pending.layout != Layout::undefined) replay.require({atom_of(state.layout_scope, AtomField::whole)});
 }
 
@@ -425,9 +445,11 @@ void find_uses(Replay& replay) {
   SyncResult& result = replay.result;
   result.first_use.assign(replay.model.resources.size(), kNone);
   result.last_use.assign(replay.model.resources.size(), kNone);
+  replay.used.assign(replay.model.cell_count, false);
   for (uint32_t s = 0; s < replay.model.steps.size(); ++s) {
     if (!replay.model.steps[s].is_pass) continue;
     for (const Use& use : replay.model.passes[replay.model.steps[s].index].uses) {
+      for (const uint32_t cell : use.cells) replay.used[replay.model.cell(use.resource, 0, cell)] = true;
       if (result.first_use[use.resource] == kNone) result.first_use[use.resource] = s;
       result.last_use[use.resource] = s;
     }

@@ -104,7 +104,7 @@ class Generator {
 
   void add_resource(const Resource& row) {
     const bool defined = row.lifetime == Lifetime::persistent || (row.lifetime == Lifetime::imported && row.before.role != Role::undefined);
-    defined_.emplace_back(row.mips * row.layers, defined);
+    defined_.emplace_back(row.kind == ResourceKind::buffer ? 2 : row.mips * row.layers, defined);
     graph_.resources.add(row);
   }
 
@@ -115,10 +115,19 @@ class Generator {
   bool is_depth(uint32_t r) const { return is_image(r) && (row(r).format == Format::d32f || row(r).format == Format::d32f_s8); }
   uint32_t any_resource() { return below(static_cast<uint32_t>(graph_.resources.size())); }
 
+  // All of a buffer, or one half where its size is known.
+  Range any_bytes(uint32_t r) {
+    Range range;
+    const Expr& count = program_.exprs[row(r).count];
+    if (count.op != ExprOp::constant || !one_in(3)) return range;
+    const int64_t half = count.value * row(r).stride / 2;
+    range.offset = constant(one_in(2) ? 0 : half), range.size = constant(half);
+    return range;
+  }
   // One subresource, one mip with all layers, or everything.
   Range any_range(uint32_t r) {
     Range range;
-    if (!is_image(r)) return range;
+    if (!is_image(r)) return any_bytes(r);
     if (one_in(3)) return range;
     range.mip = below(row(r).mips), range.mips = 1;
     if (row(r).layers > 1 && one_in(2)) range.layer = below(row(r).layers), range.layers = 1;
@@ -126,7 +135,12 @@ class Generator {
   }
   template <class Visit>
   void each_spot(uint32_t r, const Range& range, Visit visit) {
-    if (!is_image(r)) return visit(0);
+    if (!is_image(r)) {
+      const bool whole = !range.offset.valid(), upper = !whole && program_.exprs[range.offset].value != 0;
+      if (whole || !upper) visit(0);
+      if (whole || upper) visit(1);
+      return;
+    }
     for (uint32_t m = range.mip; m < (range.mips == kAll ? row(r).mips : range.mip + range.mips); ++m)
       for (uint32_t l = range.layer; l < (range.layers == kAll ? row(r).layers : range.layer + range.layers); ++l) visit(m * row(r).layers + l);
   }
@@ -282,6 +296,7 @@ class Generator {
   bool add_copy() {
     const uint32_t from = any_resource(), to = any_resource();
     if (from == to || to == 0 || from == 0 || is_image(from) != is_image(to)) return false;
+    if (is_image(from) && row(from).format == Format::d32f_s8) return false;  // the stencil may be undefined
     if (is_image(from) && (row(from).format != row(to).format || row(from).layers != 1 || row(to).layers != 1)) return false;
     Range range;
     if (is_image(from)) range.mips = 1;
