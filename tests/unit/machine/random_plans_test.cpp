@@ -20,12 +20,16 @@ struct Planned {
   compiler::FramePlan frame;
 };
 
-Planned plan_random(uint64_t seed) {
+// Nothing where the program reads what a skipped pass may have left unwritten: the front end refuses it.
+std::optional<Planned> plan_random(uint64_t seed) {
   const std::string source = make_random_program(seed, 4 + static_cast<uint32_t>(seed % 17));
   dsl::Diagnostics diagnostics;
   dsl::FrontEndResult front = dsl::load_program(
       "random.rg", [&](const std::string&, std::string&) { return std::optional(source); }, diagnostics);
-  EXPECT_FALSE(diagnostics.has_errors()) << print(diagnostics, front.files, false);
+  for (const dsl::Diagnostic& each : diagnostics.rows())
+    if (row(each.kind).severity == dsl::Severity::error && row(each.kind).code != "RG0301" && row(each.kind).code != "RG0305")
+      ADD_FAILURE() << "seed " << seed << ": " << print(diagnostics, front.files, false);
+  if (diagnostics.has_errors()) return std::nullopt;
   Planned planned{std::move(front.program), {}};
   planned.frame = compiler::plan_frame(planned.program, dsl::GraphId{0}, {}, {});
   return planned;
@@ -48,8 +52,12 @@ std::vector<machine::Placement> estimated_placement(const PlanData& plan) {
 }
 
 TEST(RandomPlans, AgreeWithProgramOrder) {
+  int checked = 0;
   for (uint64_t seed = 1; seed <= 80; ++seed) {
-    const Planned planned = plan_random(seed);
+    const std::optional<Planned> accepted = plan_random(seed);
+    if (!accepted) continue;
+    const Planned& planned = *accepted;
+    ++checked;
     for (const bool aliased : {false, true})
       for (const std::vector<uint64_t>& conditions : kOutcomes) {
         MachineOptions options;
@@ -60,6 +68,7 @@ TEST(RandomPlans, AgreeWithProgramOrder) {
       }
     if (HasFailure()) return;
   }
+  EXPECT_GE(checked, 60);
 }
 
 // ---- taking things away ----
@@ -132,7 +141,9 @@ TEST(RandomPlans, MissingPiecesAreFound) {
   size_t found = 0, not_found = 0;
   std::vector<std::string> missed;
   for (uint64_t seed = 1; seed <= 8; ++seed) {
-    const Planned planned = plan_random(seed);
+    const std::optional<Planned> accepted = plan_random(seed);
+    if (!accepted) continue;
+    const Planned& planned = *accepted;
     std::vector<Mutant> mutants;
     add_mutants(planned.frame.plan, &PlanData::image_barriers, mutants);
     add_mutants(planned.frame.plan, &PlanData::buffer_barriers, mutants);
