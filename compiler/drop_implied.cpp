@@ -73,7 +73,7 @@ std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages s
       if (transition)
         claims.push_back({stage, first, group, with_earlier(src), false});
       else
-        claims.push_back({stage, first, group + 1, b.dst_stages, true});
+        claims.push_back({stage, first, b.first_use + 1, b.dst_stages, true});
     }
   }
   return claims;

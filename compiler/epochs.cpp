@@ -31,7 +31,7 @@ void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segm
   merge(epoch.effect, gpu_effect(use.effect));
   epoch.last_segment = segment;
   epoch.needs = epoch.needs || use.needs;
-  epoch.events.push_back({segment, gpu_effect(use.effect).stages(), use.pass});
+  epoch.events.push_back({segment, gpu_effect(use.effect).stages(), use.pass, use.effect.read_stages, use.effect.reads});
 }
 
 bool crosses_frames(dsl::Lifetime lifetime) { return lifetime == dsl::Lifetime::history || lifetime == dsl::Lifetime::persistent; }

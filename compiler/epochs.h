@@ -21,6 +21,8 @@ struct Event {  // a use as barriers see it
   uint32_t segment = 0;
   Stages stages = 0;
   uint32_t pass = 0;
+  Stages read_stages = 0;
+  Accesses reads = 0;
   bool earlier_frame = false;  // as seen from a barrier
 };
 

@@ -13,7 +13,10 @@ auto meaning(const Frame& frame, const CellBarrier& b) {
                     b.tag, b.is_acquire, b.wraps);
 }
 
-void absorb(CellBarrier& into, CellBarrier& other) { into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end()); }
+void absorb(CellBarrier& into, CellBarrier& other) {
+  into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end());
+  into.first_use = std::min(into.first_use, other.first_use);
+}
 
 bool join_layers(CellBarrier& a, CellBarrier& b) {
   if (a.range.mip != b.range.mip || a.range.mips != b.range.mips || a.range.layer + a.range.layers != b.range.layer) return false;

@@ -133,32 +133,48 @@ std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t program) {
 
 // Moves in all: enough for small graphs to search from several seeds, and few enough for 10,000 nodes to take about a second.
 uint64_t total_evaluations(uint64_t nodes) {
-  if (nodes <= 250) return 100'000;
+  if (nodes <= 400) return std::min<uint64_t>(1600 * nodes, 160'000);
   return nodes <= 1000 ? 400 * nodes : 400'000 + 60 * (nodes - 1000);
 }
+
+// The best so far, and what is found for each number of segments.
+struct Search {
+  const SegmentProblem& problem;
+  Segments best;
+
+  double consider(const Segments& candidate) {
+    Segments compact = compact_segments(problem, candidate);
+    const double found = score(cost_of(problem, compact));
+    if (found < score(cost_of(problem, best))) best = std::move(compact);
+    return found;
+  }
+};
 
 }  // namespace
 
 Segments search_segments(const SegmentProblem& problem) {
-  const Segments program = program_order_segments(problem);
-  if (problem.nodes < 2) return program;
-  Segments best = program;
-  const auto consider = [&](const Segments& candidate) {
-    const Segments compact = compact_segments(problem, candidate);
-    if (score(cost_of(problem, compact)) < score(cost_of(problem, best))) best = compact;
-  };
+  Search search{problem, program_order_segments(problem)};
+  if (problem.nodes < 2) return search.best;
   const Segments earliest = earliest_segments(problem);
-  consider(earliest);
-  const std::vector<uint32_t> counts = counts_to_try(count_of(earliest), count_of(program));
-  const uint64_t share = total_evaluations(problem.nodes) / counts.size();
-  const uint64_t seeds = std::max<uint64_t>(1, share / (100 * uint64_t{problem.nodes}));
+  const std::vector<uint32_t> counts = counts_to_try(count_of(earliest), count_of(search.best));
+  search.consider(earliest);
+
+  // Half of the effort on every number of segments, the other half on the most promising.
+  const uint64_t half = total_evaluations(problem.nodes) / 2;
+  std::vector<std::pair<double, uint32_t>> ranking;
   for (const uint32_t count : counts) {
-    consider(latest_segments(problem, count));
     const Segments spread = spread_segments(problem, count);
-    consider(spread);
-    for (uint64_t seed = 1; seed <= seeds; ++seed) consider(anneal_segments(problem, spread, count, share / seeds, seed));
+    search.consider(latest_segments(problem, count));
+    search.consider(spread);
+    ranking.emplace_back(search.consider(anneal_segments(problem, spread, count, half / counts.size(), 1)), count);
   }
-  return best;
+  std::sort(ranking.begin(), ranking.end());
+  ranking.resize(std::min<size_t>(ranking.size(), 3));
+  const uint64_t seeds = std::max<uint64_t>(1, half / (ranking.size() * 100 * problem.nodes));
+  for (uint64_t seed = 2; seed < 2 + seeds; ++seed)
+    for (const auto& [found, count] : ranking)
+      search.consider(anneal_segments(problem, spread_segments(problem, count), count, half / (ranking.size() * seeds), seed));
+  return search.best;
 }
 
 }  // namespace rg::compiler

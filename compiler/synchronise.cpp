@@ -27,16 +27,21 @@ const char* hazard_name(const Side& from, const Side& to, bool discards) {
 
 bool is_subset(uint64_t part, uint64_t whole) { return (part & ~whole) == 0; }
 
-// The stages and reads of `effect` that `seen` lacks.
-Effect not_seen(const Effect& effect, const Effect& seen) {
-  Effect result;
-  for (Stages rest = effect.read_stages; rest; rest &= rest - 1) {
+// Adds the stages and reads that `seen` lacks.
+void add_unseen(Stages stages, Accesses accesses, const Effect& seen, Effect& unseen) {
+  for (Stages rest = stages; rest; rest &= rest - 1) {
     const Stages stage = rest & ~(rest - 1);
-    const Accesses reads = effect.reads & supported_accesses(stage) & ~((seen.read_stages & stage) ? seen.reads : 0);
-    result.reads |= reads;
-    if (reads) result.read_stages |= stage;
+    const Accesses reads = accesses & supported_accesses(stage) & ~((seen.read_stages & stage) ? seen.reads : 0);
+    unseen.reads |= reads;
+    if (reads) unseen.read_stages |= stage;
   }
-  return result;
+}
+// Use by use, because what two of them do together is more than what both do.
+Effect not_seen(const Side& side) {
+  Effect unseen;
+  if (side.events.empty()) add_unseen(side.effect.read_stages, side.effect.reads, side.seen, unseen);
+  for (const Event& event : side.events) add_unseen(event.read_stages, event.reads, side.seen, unseen);
+  return unseen;
 }
 
 class Synchroniser {
@@ -113,7 +118,7 @@ class Synchroniser {
       return;
     }
     // Contents made available before, not yet visible to all reads of this one.
-    const Effect unseen = not_seen(e, to.seen);
+    const Effect unseen = to.seen.reads ? not_seen(to) : e;
     const bool visible = unseen.reads == 0 || (is_subset(e.reads, from.effect.reads) && is_subset(e.read_stages, from.effect.read_stages));
     if (to.needs && from.defined && !visible)
       b.dst_stages = unseen.read_stages | earliest_stages(e.write_stages), b.dst_accesses = unseen.reads;
@@ -127,7 +132,9 @@ class Synchroniser {
   bool is_void(const CellBarrier& b) const { return b.src_stages == 0 && b.old_layout == b.new_layout; }
 
   void add(uint32_t group, CellBarrier barrier) {
-    if (!is_void(barrier)) sync_.groups[group].push_back(std::move(barrier));
+    if (is_void(barrier)) return;
+    barrier.first_use = std::max(barrier.first_use, group);
+    sync_.groups[group].push_back(std::move(barrier));
   }
 
   // ---- within a frame -----------------------------------------------------------------------------------------------
@@ -156,6 +163,7 @@ class Synchroniser {
     for (Event& event : last.events) event.earlier_frame = true;
     CellBarrier acquire = connect(line.cell, last, side_of(line.cell, line.epochs.front(), true));
     acquire.is_acquire = true;
+    acquire.first_use = line.epochs.front().first_segment;
     add(group, std::move(acquire));
     connect_within(line, false);
     note_hand_over(resource, group, line.epochs.front().effect, line.epochs.back().effect);
@@ -265,12 +273,12 @@ class Synchroniser {
   Side state_before(const dsl::Resource& resource, uint32_t aspect, const Epoch& first) const {
     Side side{effect_of(resource.before, aspect), false, true, true, {}, false, {}};
     side.writes = side.effect.writes != 0;
-    side.events = {{0, side.effect.stages(), UINT32_MAX, true}};
+    side.events = {{0, side.effect.stages(), UINT32_MAX, 0, 0, true}};
     if (resource.before.role != dsl::Role::undefined) return side;
     side.defined = false;
     const Effect after = effect_of(resource.after, aspect);
     side.effect = {after.stages() ? after.stages() : first.effect.stages(), 0, 0, 0, Layout::undefined};
-    side.events = {{0, side.effect.stages(), UINT32_MAX, true}};
+    side.events = {{0, side.effect.stages(), UINT32_MAX, 0, 0, true}};
     return side;
   }
 
@@ -278,7 +286,9 @@ class Synchroniser {
   static void cover_after(Line& line, const Side& before, const Effect& after) {
     Epoch& last = line.epochs.back();
     const bool has_barrier = line.epochs.size() > 1 || !is_visible(before, last);
-    if (has_barrier && continues_after(last, after)) merge(last.covered, after);
+    if (!has_barrier || !continues_after(last, after)) return;
+    merge(last.covered, after);
+    last.events.push_back({last.last_segment, 0, last.events.back().pass, after.read_stages, after.reads});
   }
   // Whoever waits for the state after the frame waits for these reads, too.
   static bool continues_after(const Epoch& last, const Effect& after) {

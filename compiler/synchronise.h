@@ -36,6 +36,7 @@ struct CellBarrier {
   bool is_acquire = false;     // first use of a transient
   bool wraps = false;          // its first scope lies in the frame before
   std::vector<Event> sources;  // what must have happened
+  uint32_t first_use = 0;      // the segment that needs it; later than the group only for discards of a transient
   std::string reason;          // "read after write"
 };
 

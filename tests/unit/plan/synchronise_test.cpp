@@ -215,11 +215,11 @@ TEST(Synchronise, BytesOfABufferAreTrackedApart) {
                      "pass show : raster { read b.bytes(128, 128) as storage in fragment  color backbuffer covers }\n",
                      "b"),
             "b bytes 0+128 compute_shader/none -> compute_shader/none\n"
-            "b bytes 128+128 fragment_shader/none -> compute_shader/none\n"
+            "b bytes 128+ fragment_shader/none -> compute_shader/none\n"
             "[low]\n"
             "b bytes 0+128 compute_shader/shader_storage_write -> compute_shader/shader_storage_read\n"
             "[high]\n"
-            "b bytes 128+128 compute_shader/shader_storage_write -> fragment_shader/shader_storage_read\n"
+            "b bytes 128+ compute_shader/shader_storage_write -> fragment_shader/shader_storage_read\n"
             "[show]\n");
 }
 
