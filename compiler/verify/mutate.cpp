@@ -46,6 +46,8 @@ class Mutator {
     for (Index i = 0; i < plan_.releases.size(); ++i) release(i);
     for (Index i = 0; i + 1 < plan_.steps.size(); ++i) order(i);
     for (Index i = 0; i + 1 < plan_.acquires.size(); ++i) placement(i);
+    for (Index i = 0; i < plan_.acquires.size(); ++i) acquire(i);
+    for (Index i = 0; i < plan_.alias_pairs.size(); ++i) pair(i);
     return std::move(report_);
   }
 
@@ -192,6 +194,30 @@ class Mutator {
     const std::string implied = can_hand_on && (stages & (stages - 1)) != 0 ? "release that other barriers order already" : harmless;
     clear_bits(&Plan::releases, at, &Release::stages, what + ", stages", implied);
     clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
+  }
+
+  void acquire(Index at) {
+    const Acquire& row = plan_.acquires[at];
+    const std::string what = "acquire of " + std::string(plan_.resources[row.resource].name);
+    const bool can_take_over =
+        std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(), [&](const AliasPair& pair) { return pair.after == row.resource; });
+    std::string harmless;
+    if (!can_take_over) harmless = "acquire of memory that nobody gives away";
+    if (plan_.resources[row.resource].kind == ResourceKind::image) harmless = "acquire of an image, whose own barrier says the same";
+    clear_bits(&Plan::acquires, at, &Acquire::stages, what + ", stages", harmless);
+    clear_bits(&Plan::acquires, at, &Acquire::accesses, what + ", accesses", harmless);
+  }
+
+  void pair(Index at) {
+    const AliasPair& row = plan_.alias_pairs[at];
+    const Resource &a = plan_.resources[row.before], &b = plan_.resources[row.after];
+    const bool meet = a.estimated_offset < b.estimated_offset + b.estimated_bytes && b.estimated_offset < a.estimated_offset + a.estimated_bytes;
+    std::vector<AliasPair> pairs(plan_.alias_pairs.begin(), plan_.alias_pairs.end());
+    pairs.erase(pairs.begin() + at);
+    Plan mutant = plan_;
+    mutant.alias_pairs = pairs;
+    judge(mutant, "pair " + std::string(a.name) + ", " + std::string(b.name) + " removed",
+          meet ? "" : "pair that the estimated placement does not use");
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------

@@ -4,7 +4,7 @@
 //   barrier            removed; one stage bit or access bit cleared; layout changed; contents discarded; last mip or layer left out
 //   attachment         contents not loaded, not stored
 //   pass               changes places with the next one
-//   hand-off           stage or access bit of a release cleared
+//   hand-off           stage or access bit of a release or an acquire cleared; allowed pair removed
 //   placement          bytes of two resources that live at once
 //
 // A survivor that changes nothing belongs to a named class; any other survivor is a hole in the checker.
