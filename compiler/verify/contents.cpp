@@ -165,9 +165,10 @@ void compare_read(Comparison& c, const PassNode& node, const Use& use, size_t in
     report_load(c, node.plan_pass, use, use.clears ? "does not clear" : "clears");
   if (use.attachment && node.first_in_rendering && use.load == LoadOp::load && actual == kPoison && !use.clears)
     report_load(c, node.plan_pass, use, "loads undefined contents of");
-  if (!use.uses_contents || wanted == kPoison || use.commutes) return;
+  if (!use.uses_contents || wanted == kPoison) return;
   const Version seen = loads(use, node) ? actual : kPoison;
-  if (seen != wanted) report_read(c, node.plan_pass, use, cell, wanted, seen);
+  // Among commuting writers only the sum counts, which their reader finds; but they need something to add to.
+  if (use.commutes ? seen == kPoison : seen != wanted) report_read(c, node.plan_pass, use, cell, wanted, seen);
 }
 
 void run_plan_pass(Comparison& c, const PassNode& node, Memory& memory, const Found& found) {

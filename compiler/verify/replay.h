@@ -17,6 +17,7 @@ struct Replay {
   SyncResult result;
   std::vector<bool> used;  // by cell of copy 0
   uint32_t frame = 0;
+  uint32_t dispensable = kNone;  // a scope whose existence the access now checked does not need
 
   Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}, {}} {}
 
@@ -32,7 +33,8 @@ struct Replay {
   uint32_t now() const { return static_cast<uint32_t>(history.groups.size()); }
   void require(const Proof& proof) {
     if (!history.proofs) return;
-    for (const Atom atom : proof) result.required[atom] = true;
+    for (const Atom atom : proof)
+      if (dispensable == kNone || atom != atom_of(dispensable, AtomField::whole)) result.required[atom] = true;
   }
 };
 

@@ -94,6 +94,33 @@ void check_layout(Replay& replay, const Point& at, const CellState& state, Layou
                          layout_name(state.layout)});
 }
 
+// ---- without a transition ---------------------------------------------------------------------------------------
+
+bool holds_without(const Proof& proof, uint32_t scope) { return !std::binary_search(proof.begin(), proof.end(), atom_of(scope, AtomField::whole)); }
+
+bool is_ordered_without(const Without& without, uint32_t stage, uint32_t access) {
+  const bool writes = kAllWrites & access_bit(access);
+  for (const WriteRecord& write : without.writes) {
+    if (writes && write.read_since) continue;
+    if (!(write.visible[stage] & access_bit(access)) || !holds_without(proof_of_visible(write, stage, access), without.scope)) return false;
+  }
+  for (const ReadRecord& read : without.reads) {
+    if (!writes) continue;
+    if (!(read.reach().stages & stage_bit(stage)) || !holds_without(proof_of_reach(read, stage), without.scope)) return false;
+  }
+  return true;
+}
+
+// The use would be right if the transition before it, which discards and changes no layout, were missing.
+bool is_right_without(const CellState& state, const Use& use) {
+  if (state.without.scope == kNone || use.uses_contents) return false;
+  for (const Touch& touch : use.touches)
+    for (uint32_t s = 0; s < kStageCount && touch.needed; ++s)
+      for (uint32_t a = 0; a < kAccessCount && (touch.stages & stage_bit(s)); ++a)
+        if ((touch.accesses & supported(s) & access_bit(a)) && !is_ordered_without(state.without, s, a)) return false;
+  return true;
+}
+
 // All touches of one pass on one cell: what is checked against the state before, and recorded together.
 struct CellUse {
   bool touched = false, may_skip = false;
@@ -132,6 +159,7 @@ void record_writes(Replay& replay, uint32_t pass, const CellUse& use, CellState&
   if (!use.may_skip && !commuting) {
     std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || replay.now() != read.fate->born; });
     state.writes.clear();
+    state.without = {};
   }
   for (uint32_t s = 0; s < kStageCount; ++s)
     for (uint32_t a = 0; a < kAccessCount; ++a) {
@@ -152,7 +180,9 @@ void check_use(Replay& replay, const PassNode& node, const Use& use, std::map<ui
     const Point at{node.plan_pass, use.resource, use.cells[i]};
     const uint64_t order = order_of(replay, node, use, i);
     check_layout(replay, at, state, use.layouts[i]);
+    replay.dispensable = is_right_without(state, use) ? state.without.scope : kNone;
     for (const Touch& touch : use.touches) check_touch(replay, at, state, order, touch);
+    replay.dispensable = kNone;
     CellUse& cell_use = cell_uses[physical];
     // Two accesses of one pass to one cell: they share an order only if both have it.
     cell_use.order = cell_use.touched && cell_use.order != order ? 0 : order;
@@ -226,11 +256,14 @@ void apply_to_cell(Replay& replay, const GroupNode& group, uint32_t cell, const 
     replay.report.add({Hazard::invalid_barrier, replay.model.resource(scope.resource).name, "", "",
                        "two image barriers of one group cover " + replay.model.place(scope.resource, cell) + ", and one changes its layout"});
   check_transition(replay, scope, *transition, cell, state);
+  const Layout layout = layout_of_aspect(scope.new_layout, aspect_of_cell(replay.model.resources[scope.resource].partition, cell));
+  state.without = {};
+  if (replay.history.proofs && state.layout == layout) state.without = {*transition, state.reads, state.writes};
+  if (state.layout != layout) state.layout_scope = *transition;
   state.reads.clear();
   state.writes = {transition_record(replay.history, scope, *transition)};
   state.writes.front().seen = replay.now() + 1;
-  state.layout = layout_of_aspect(scope.new_layout, aspect_of_cell(replay.model.resources[scope.resource].partition, cell));
-  state.layout_scope = *transition;
+  state.layout = layout;
 }
 
 // The runtime adds a memory barrier from the last users of the memory to the first users of its new owner; to these it is a write before them.

@@ -352,6 +352,8 @@ void advance(const History& history, WriteRecord& write) {
 void advance(const History& history, CellState& state) {
   for (ReadRecord& read : state.reads) advance(history, *read.fate);
   for (WriteRecord& write : state.writes) advance(history, write);
+  for (ReadRecord& read : state.without.reads) advance(history, *read.fate);
+  for (WriteRecord& write : state.without.writes) advance(history, write);
 }
 
 void apply_to_writes(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state) {

@@ -66,11 +66,19 @@ struct WriteRecord {
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
 };
 
+// What the cell would be if the last transition, which left its layout as it was, did not exist.
+struct Without {
+  uint32_t scope = kNone;
+  std::vector<ReadRecord> reads;
+  std::vector<WriteRecord> writes;
+};
+
 struct CellState {
   std::vector<ReadRecord> reads;
   std::vector<WriteRecord> writes;
   Layout layout = Layout::undefined;
   uint32_t layout_scope = kNone;  // the barrier that set it
+  Without without;                // only where proofs are kept, until the next write
 };
 
 // The barriers executed so far. `proofs` off keeps only the facts.
