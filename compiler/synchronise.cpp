@@ -96,7 +96,8 @@ class Synchroniser {
   CellBarrier connect(uint32_t cell, const Side& from, const Side& to) const {
     CellBarrier b;
     b.cell = cell, b.range = frame_.cells[cell].range, b.begin = frame_.cells[cell].begin, b.end = frame_.cells[cell].end;
-    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs));
+    // In an unchanged layout a discard gains nothing.
+    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs && from.effect.layout != to.effect.layout));
     if (is_image(cell)) b.old_layout = discards ? Layout::undefined : from.effect.layout, b.new_layout = to.effect.layout;
     const bool new_layout = is_image(cell) && (b.old_layout != b.new_layout);
     const bool rewrites = to.writes || new_layout;  // waits for readers too
@@ -187,19 +188,28 @@ class Synchroniser {
     for (size_t i = 0; i < epochs.size(); ++i) {
       const Epoch &from = epochs[(i + epochs.size() - 1) % epochs.size()], &to = epochs[i];
       if (continues(from, to)) continue;
-      add(to.first_segment, connect(cell_at(line, to.age), with_continued_reads(line, i), side_of(line.cell, to, true)));
+      Side before = with_continued_reads(line, i);
+      before.defined = i > 0 || !is_dead_at_entry(line);
+      add(to.first_segment, connect(cell_at(line, to.age), before, side_of(line.cell, to, true)));
     }
     state_circle(line);
+  }
+
+  // The oldest copy of a history becomes the current one, and nobody needs what is in it.
+  bool is_dead_at_entry(const Line& line) const {
+    const Epoch& first = line.epochs.front();
+    return options_.discard && first.age == 0 && !first.needs && frame_.grids[frame_.cells[line.cell].resource].ages > 1;
   }
 
   // At each age's exit the last epoch so far with all reads it continues; that is the state at the entry of the next age.
   void state_circle(const Line& line) {
     const uint32_t ages = frame_.grids[frame_.cells[line.cell].resource].ages;
-    const bool dead = line.epochs.front().age == 0 && !line.epochs.front().needs && ages > 1;
+    const bool dead = is_dead_at_entry(line);
     Side state = with_continued_reads(line, 0);
     size_t next = 0;
     for (uint32_t age = 0; age < ages; ++age) {
-      boundary(sync_.entry, cell_at(line, age), state.effect, state.writes, state.effect.layout, age == 0 && dead);
+      boundary(sync_.entry, cell_at(line, age), state.effect, state.writes, age == 0 && dead ? Layout::undefined : state.effect.layout,
+               age == 0 && dead);
       for (; next < line.epochs.size() && line.epochs[next].age == age; ++next) state = with_continued_reads(line, next + 1);
       boundary(sync_.exit, cell_at(line, age), state.effect, state.writes, state.effect.layout, age + 1 == ages && dead);
     }

@@ -133,6 +133,13 @@ TEST(Synchronise, DepthIsTestedAndSampledAtOnce) {
   EXPECT_EQ(attachment.store, StoreOp::none);
 }
 
+const Boundary& boundary_of(const std::vector<Boundary>& rows, Index resource, uint32_t age) {
+  for (const Boundary& row : rows)
+    if (row.ref.resource == resource && row.ref.age == age) return row;
+  ADD_FAILURE() << "no state of age " << age;
+  return rows.front();
+}
+
 TEST(Synchronise, HistoryPassesItsStateFromAgeToAge) {
   const FramePlan frame = plan_of(
       "image hdr : rgba16f view history 1 init clear 0\n"
@@ -144,12 +151,18 @@ TEST(Synchronise, HistoryPassesItsStateFromAgeToAge) {
             "[accumulate]\n"
             "hdr compute_shader/shader_storage_write -> fragment_shader|compute_shader/shader_sampled_read  general -> shader_read_only\n"
             "[show]\n");
-  for (const std::vector<Boundary>* rows : {&frame.plan.entry, &frame.plan.exit})
-    for (const Boundary& row : *rows)
-      if (row.ref.resource == resource_named(frame.plan, "hdr")) {
-        EXPECT_EQ(row.layout, Layout::shader_read_only);
-        EXPECT_EQ(row.stages, stage::fragment_shader | stage::compute_shader);
-      }
+  const Index hdr = resource_named(frame.plan, "hdr");
+  // The oldest copy becomes the current one; its contents are dead.
+  const Boundary &now = boundary_of(frame.plan.entry, hdr, 0), &before = boundary_of(frame.plan.entry, hdr, 1),
+                 &left = boundary_of(frame.plan.exit, hdr, 0);
+  EXPECT_TRUE(now.discard);
+  EXPECT_EQ(now.layout, Layout::undefined);
+  EXPECT_FALSE(before.discard);
+  EXPECT_EQ(before.layout, Layout::shader_read_only);
+  EXPECT_EQ(before.stages, stage::fragment_shader | stage::compute_shader);
+  EXPECT_EQ(left.layout, before.layout);
+  EXPECT_EQ(left.stages, before.stages);
+  EXPECT_TRUE(boundary_of(frame.plan.exit, hdr, 1).discard);
 }
 
 TEST(Synchronise, ImportedBuffersArriveVisibleAndStay) {
