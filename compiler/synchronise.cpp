@@ -96,8 +96,9 @@ class Synchroniser {
   CellBarrier connect(uint32_t cell, const Side& from, const Side& to) const {
     CellBarrier b;
     b.cell = cell, b.range = frame_.cells[cell].range, b.begin = frame_.cells[cell].begin, b.end = frame_.cells[cell].end;
-    // In an unchanged layout a discard gains nothing.
-    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs && from.effect.layout != to.effect.layout));
+    // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
+    const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;
+    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs && worthwhile));
     if (is_image(cell)) b.old_layout = discards ? Layout::undefined : from.effect.layout, b.new_layout = to.effect.layout;
     const bool new_layout = is_image(cell) && (b.old_layout != b.new_layout);
     const bool rewrites = to.writes || new_layout;  // waits for readers too
