@@ -63,6 +63,19 @@ void check_refs(const Input& input, Bounds& bounds) {
                   "an alias pair names no two resources");
 }
 
+// Byte ranges may name expressions.
+void check_bytes(const Plan& plan, Bounds& bounds) {
+  const auto good = [&](const Bytes& bytes) {
+    return (bytes.offset == kNone || bytes.offset < plan.exprs.size()) && (bytes.size == kNone || bytes.size < plan.exprs.size());
+  };
+  const auto check = [&](const Bytes& bytes) { bounds.expect(good(bytes), "a byte range names no expression"); };
+  for (const BufferBarrier& row : plan.buffer_barriers) check(row.bytes);
+  for (const Access& row : plan.accesses) check(row.bytes);
+  for (const Boundary& row : plan.entry) check(row.bytes);
+  for (const Boundary& row : plan.exit) check(row.bytes);
+  for (const Transfer& row : plan.transfers) check(row.src_bytes), check(row.dst_bytes);
+}
+
 void check_tables(const Plan& plan, Bounds& bounds) {
   for (const BarrierGroup& group : plan.groups) {
     bounds.slice(group.first_memory, group.memory_count, plan.memory_barriers.size(), "memory barriers of a group");
@@ -259,6 +272,7 @@ bool check_indices(const Input& input, Report& report) {
   check_mappings(input, bounds);
   if (bounds.good) check_refs(input, bounds);
   if (bounds.good) check_tables(input.plan, bounds);
+  if (bounds.good) check_bytes(input.plan, bounds);
   if (bounds.good) check_steps(input.plan, bounds);
   if (bounds.good) check_configuration(input, bounds);
   return bounds.good;

@@ -10,6 +10,7 @@
 #include "compiler/verify/report.h"
 #include "compiler/verify/structure.h"
 #include "compiler/verify/sync_replay.h"
+#include "compiler/verify/work.h"
 
 namespace rg::verify {
 namespace {
@@ -17,6 +18,7 @@ namespace {
 void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, const VerifyOptions& options, Report& report) {
   const Model model = make_model(input, extents, std::move(partitions), report);
   check_usage(model, report);
+  check_work(model, extents, report);
   check_boundaries(model, report);
   const SyncResult sync = replay_sync(model, model.history + 2, options.irredundancy, report);
   check_aliases(model, sync, report);

@@ -31,6 +31,7 @@ struct PlanTables {
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;
   std::vector<Attachment> attachments;
+  std::vector<Transfer> transfers;
   std::vector<std::string_view> conditions;
   std::vector<uint32_t> program_pass, program_resource;
   Plan view() const;
