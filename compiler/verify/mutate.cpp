@@ -159,7 +159,9 @@ class Mutator {
   static std::string dead_contents(const ImageBarrier& row) {
     const Accesses reads = access::shader_sampled_read | access::shader_storage_read | access::shader_read | access::color_attachment_read |
                            access::depth_stencil_attachment_read | access::input_attachment_read | access::transfer_read | access::memory_read;
-    return (row.dst_accesses & reads) == 0 && row.dst_accesses != 0 ? "contents that the next pass may overwrite" : "";
+    // A depth write brings its test along.
+    const Accesses test = row.dst_accesses & access::depth_stencil_attachment_write ? access::depth_stencil_attachment_read : Accesses{0};
+    return (row.dst_accesses & reads & ~test) == 0 && row.dst_accesses != 0 ? "contents that the next pass may overwrite" : "";
   }
 
   void buffer(Index at) {
@@ -180,7 +182,27 @@ class Mutator {
           &Plan::attachments, at, [](Attachment& a) { a.load = LoadOp::dont_care; }, what + " not cleared");
     if (row.store == StoreOp::store)
       change(
-          &Plan::attachments, at, [](Attachment& a) { a.store = StoreOp::dont_care; }, what + " not stored");
+          &Plan::attachments, at, [](Attachment& a) { a.store = StoreOp::dont_care; }, what + " not stored", kept_over_skipped(at));
+  }
+
+  bool draws_to(const Pass& pass, Index at) const {
+    if (pass.rendering == kNone) return false;
+    const Rendering& rendering = plan_.renderings[pass.rendering];
+    return rendering.depth == at || rendering.stencil == at || (at >= rendering.first_color && at < rendering.first_color + rendering.color_count);
+  }
+
+  // Where the next writer may be skipped, contents are kept for whoever comes after it, be it only another writer.
+  std::string kept_over_skipped(Index at) const {
+    bool found = false;
+    for (const Step& step : plan_.steps) {
+      if (step.kind != StepKind::pass) continue;
+      const Pass& pass = plan_.passes[step.index];
+      for (const Access& row : plan_.accesses.subspan(pass.first_access, pass.access_count))
+        if (found && row.writes && row.ref == plan_.attachments[at].ref && meet(row.range, plan_.attachments[at].range))
+          return pass.guard != 0 || pass.mip_limit_count != 0 ? "contents kept over a pass that may be skipped" : "";
+      found = found || draws_to(pass, at);
+    }
+    return {};
   }
 
   void release(Index at) {
