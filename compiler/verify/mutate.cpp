@@ -217,28 +217,27 @@ class Mutator {
     clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
   }
 
+  // Of buffers; an image's own barrier says what its acquire says.
   void acquire(Index at) {
     const Acquire& row = plan_.acquires[at];
+    const bool takes_over =
+        std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(), [&](const AliasPair& p) { return p.after == row.resource; });
+    if (!takes_over || plan_.resources[row.resource].kind == ResourceKind::image) return;
     const std::string what = "acquire of " + std::string(plan_.resources[row.resource].name);
-    const bool can_take_over =
-        std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(), [&](const AliasPair& pair) { return pair.after == row.resource; });
-    std::string harmless;
-    if (!can_take_over) harmless = "acquire of memory that nobody gives away";
-    if (plan_.resources[row.resource].kind == ResourceKind::image) harmless = "acquire of an image, whose own barrier says the same";
-    clear_bits(&Plan::acquires, at, &Acquire::stages, what + ", stages", harmless);
-    clear_bits(&Plan::acquires, at, &Acquire::accesses, what + ", accesses", harmless);
+    clear_bits(&Plan::acquires, at, &Acquire::stages, what + ", stages", {});
+    clear_bits(&Plan::acquires, at, &Acquire::accesses, what + ", accesses", {});
   }
 
+  // Of places that meet; without any other pair the plan merely allows less.
   void pair(Index at) {
     const AliasPair& row = plan_.alias_pairs[at];
     const Resource &a = plan_.resources[row.before], &b = plan_.resources[row.after];
-    const bool meet = a.estimated_offset < b.estimated_offset + b.estimated_bytes && b.estimated_offset < a.estimated_offset + a.estimated_bytes;
+    if (a.estimated_offset >= b.estimated_offset + b.estimated_bytes || b.estimated_offset >= a.estimated_offset + a.estimated_bytes) return;
     std::vector<AliasPair> pairs(plan_.alias_pairs.begin(), plan_.alias_pairs.end());
     pairs.erase(pairs.begin() + at);
     Plan mutant = plan_;
     mutant.alias_pairs = pairs;
-    judge(mutant, "pair " + std::string(a.name) + ", " + std::string(b.name) + " removed",
-          meet ? "" : "pair that the estimated placement does not use");
+    judge(mutant, "pair " + std::string(a.name) + ", " + std::string(b.name) + " removed", {});
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------
