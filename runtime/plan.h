@@ -213,7 +213,9 @@ struct ShaderModule {
   ShaderStage stage = ShaderStage::compute;
   std::span<const uint32_t> words = {};
 };
-enum class BlendFactor : uint8_t { zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha };  // VkBlendFactor
+enum class BlendFactor : uint8_t {  // VkBlendFactor
+  zero, one, src_color, one_minus_src_color, dst_color, one_minus_dst_color, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha,
+};
 enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };  // VkBlendOp
 enum class Compare : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };  // VkCompareOp
 struct ColorBlend {
