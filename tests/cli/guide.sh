@@ -25,6 +25,10 @@ for ((step = 1; step <= steps; ++step)); do
   (cd "$work/step$step" && "$rgc" check frame.rg && "$rgc" verify frame.rg >/dev/null)
   verdict "step $step of docs/guide.md" $?
 done
+# The ten lines of README.md, with the shaders of the second step.
+awk '/^```/ { if (inside) exit; getline; if ($1 == "module") inside = 1 } inside' "$source_dir/README.md" >"$work/step2/readme.rg"
+(cd "$work/step2" && "$rgc" verify readme.rg >/dev/null)
+verdict "README.md" $?
 cd "$work/step$steps" || exit 1
 sed 's|^  pass sky|  assert memory(1920x1080) <= 24 MiB\n  assert order(sky, bloom_first)\n&|' frame.rg >asserting.rg
 "$rgc" check asserting.rg
