@@ -34,6 +34,7 @@ struct PlanData {
   std::vector<Release> releases;
   std::vector<AliasPair> alias_pairs;
   bool alias_by_lifetime = false;
+  std::vector<Index> alias_clocks;
   std::vector<Pass> passes;
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;

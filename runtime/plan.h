@@ -88,6 +88,7 @@ struct Resource {
   ClearValue init_value = {};
   bool is_surface = false;
   bool no_alias = false;
+  bool concurrent = false;                             // shared by the families of all queues that use it; no ownership transfers
   Index import_slot = kNone;                           // position in the generated Imports
   uint64_t estimated_bytes = 0, estimated_alignment = 1, estimated_offset = 0;  // at the initial extents, by the device profile
   uint32_t line = 0;                                   // in the file that declares it
@@ -153,11 +154,17 @@ struct Acquire {
   Index image_barrier = kNone;  // first of the barriers that discard this image; there may be several, consecutive
   uint32_t image_barriers = 0;
   Stages stages = 0; Accesses accesses = 0;  // of the first users
+  Index queue = 0, point = 0;                // of `group`
+  Index first_clock = kNone;                 // in Plan::alias_clocks, see there
 };
-// The last real users of a transient: what must have finished before its bytes are given away.
+// The last real users of a transient on one queue: what must have finished before its bytes are given away. One row a queue that has some.
+//
+// The points of a queue are its barrier groups and the ends of its batches, numbered in recorded order: where something can be ordered after what
+// was recorded before it. `point` points stand before the last users; whoever is ordered after point `point` or a later one comes after them.
 struct Release {
   Index resource = kNone;
   Stages stages = 0; Accesses accesses = 0;  // accesses: writes only, not yet made available
+  Index queue = 0, point = 0;
 };
 // The bytes of `before` may be given to `after`: every last user of `before` precedes the acquire of `after` on the GPU, this frame, or
 // (`wraps`) the acquire of `after` in the next frame. Pairs not listed must not share bytes. Where Plan::alias_by_lifetime is set the list is empty, because it
@@ -327,9 +334,16 @@ enum class QueueKind : uint8_t { graphics, compute, transfer };
 struct Queue { QueueKind kind = QueueKind::graphics; };
 enum class StepKind : uint8_t { barriers, pass };
 struct Step { StepKind kind = StepKind::pass; Index index = kNone; };
-struct Wait { Index queue = kNone; uint64_t value = 0; Stages stages = 0; };    // value counts signals of that queue this frame; see Batch
-struct Signal { uint64_t value = 0; Stages stages = 0; };                       // on the batch's own queue timeline
-struct Batch {  // one VkSubmitInfo2
+// Every queue has one timeline semaphore. Its signals of a frame have the values 1, 2, ...; with S of them a frame, value v of frame f is f * S + v.
+// A queue signals its last batch of the frame at least.
+struct Wait {
+  Index queue = kNone;
+  uint64_t value = 0;
+  Stages stages = 0;
+  uint32_t frames_ago = 0;  // 1: the value of the frame before, nothing to wait for in the first frame
+};
+struct Signal { uint64_t value = 0; Stages stages = 0; };  // on the batch's own queue timeline
+struct Batch {  // one VkSubmitInfo2; the batches of a plan are listed in a legal serial order, those of one queue are submitted in it
   Index queue = 0;
   Index first_step = 0, step_count = 0;
   Index first_wait = 0, wait_count = 0;
@@ -359,6 +373,9 @@ struct Plan {
   std::span<const Release> releases = {};
   std::span<const AliasPair> alias_pairs = {};
   bool alias_by_lifetime = false;
+  // What has completed before an acquire: alias_clocks[first_clock .. + 2 * queues.size()), for each queue the largest point (see Release) of this
+  // frame, then for each queue that of the frame before. kNone: nothing is known.
+  std::span<const Index> alias_clocks = {};
   std::span<const Pass> passes = {};             // in execution order of the single-queue serialisation
   std::span<const Access> accesses = {};
   std::span<const Rendering> renderings = {};

@@ -102,14 +102,18 @@ void PlanEmitter::boundaries() {
     index(row, "image_barrier", a.image_barrier);
     row.number("image_barriers", a.image_barriers);
     if (a.stages != 0) row.field("stages", stages_text(a.stages));
-    return a.accesses != 0 ? row.field("accesses", accesses_text(a.accesses)) : row;
+    if (a.accesses != 0) row.field("accesses", accesses_text(a.accesses));
+    row.number("queue", a.queue).number("point", a.point);
+    return index(row, "first_clock", a.first_clock);
   });
   table("Release", "kReleases", plan_.releases, [&](const Release& r, size_t) {
     Row row;
     row.field("resource", resource(r.resource));
     if (r.stages != 0) row.field("stages", stages_text(r.stages));
-    return r.accesses != 0 ? row.field("accesses", accesses_text(r.accesses)) : row;
+    if (r.accesses != 0) row.field("accesses", accesses_text(r.accesses));
+    return row.number("queue", r.queue).number("point", r.point);
   });
+  list(out_, "Index", "kAliasClocks", numbers(plan_.alias_clocks));
   table("AliasPair", "kAliasPairs", plan_.alias_pairs, [&](const AliasPair& p, size_t) {
     return Row().field("before", resource(p.before)).field("after", resource(p.after)).flag("wraps", p.wraps);
   });

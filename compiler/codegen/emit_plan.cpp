@@ -52,7 +52,7 @@ void list(CppWriter& out, const std::string& type, const std::string& name, cons
 
 std::vector<std::string> numbers(std::span<const Index> indices) {
   std::vector<std::string> texts;
-  for (const Index i : indices) texts.push_back(std::to_string(i));
+  for (const Index i : indices) texts.push_back(i == kNone ? "kNone" : std::to_string(i));
   return texts;
 }
 
@@ -131,7 +131,7 @@ void PlanEmitter::resources() {
     index(row, "bytes", r.bytes);
     row.number("stride", r.stride).number("copies", r.copies, 1);
     enumerator(row, "init", "InitKind", static_cast<size_t>(r.init), {"none", "clear"});
-    row.nested("init_value", clear_value(r.init_value)).flag("is_surface", r.is_surface).flag("no_alias", r.no_alias);
+    row.nested("init_value", clear_value(r.init_value)).flag("is_surface", r.is_surface).flag("no_alias", r.no_alias).flag("concurrent", r.concurrent);
     index(row, "import_slot", r.import_slot);
     row.number("estimated_bytes", r.estimated_bytes)
         .number("estimated_alignment", r.estimated_alignment, 1)
@@ -196,8 +196,9 @@ void PlanEmitter::frame() {
     const bool is_pass = s.kind == StepKind::pass;
     return Row().field("kind", is_pass ? "StepKind::pass" : "StepKind::barriers").field("index", is_pass ? pass(s.index) : std::to_string(s.index));
   });
-  table("Wait", "kWaits", plan_.waits,
-        [](const Wait& w, size_t) { return Row().number("queue", w.queue, kNone).number("value", w.value).field("stages", stages_text(w.stages)); });
+  table("Wait", "kWaits", plan_.waits, [](const Wait& w, size_t) {
+    return Row().number("queue", w.queue, kNone).number("value", w.value).field("stages", stages_text(w.stages)).number("frames_ago", w.frames_ago);
+  });
   table("Signal", "kSignals", plan_.signals,
         [](const Signal& s, size_t) { return Row().number("value", s.value).field("stages", stages_text(s.stages)); });
   table("Batch", "kBatches", plan_.batches, [](const Batch& b, size_t) {
@@ -252,6 +253,7 @@ void PlanEmitter::plan() {
   RG_TABLE(acquires, kAcquires);
   RG_TABLE(releases, kReleases);
   RG_TABLE(alias_pairs, kAliasPairs);
+  RG_TABLE(alias_clocks, kAliasClocks);
   RG_TABLE(passes, kPasses);
   RG_TABLE(accesses, kAccesses);
   RG_TABLE(renderings, kRenderings);

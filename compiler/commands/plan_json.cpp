@@ -168,6 +168,12 @@ struct PlanJson {
             {"line", row.line}};
   }
 
+  template <class Barrier>
+  static Json transfer_of_ownership(const Barrier& barrier) {
+    if (barrier.src_queue == barrier.dst_queue) return Json::object();
+    return {{"src_queue", barrier.src_queue}, {"dst_queue", barrier.dst_queue}};
+  }
+
   Json group(const BarrierGroup& row) const {
     const auto image = [&](const ImageBarrier& barrier) {
       Json json = {{"ref", ref(barrier.image)},
@@ -175,11 +181,13 @@ struct PlanJson {
                    {"old_layout", layout_name(barrier.old_layout)},
                    {"new_layout", layout_name(barrier.new_layout)}};
       json.update(scopes(barrier));
+      json.update(transfer_of_ownership(barrier));
       return json;
     };
     const auto buffer = [&](const BufferBarrier& barrier) {
       Json json = {{"ref", ref(barrier.buffer)}, {"bytes", bytes(barrier.bytes)}};
       json.update(scopes(barrier));
+      json.update(transfer_of_ownership(barrier));
       return json;
     };
     return {
@@ -194,7 +202,7 @@ struct PlanJson {
   }
 
   Json batch(const Batch& row) const {
-    const auto wait = [](const Wait& w) { return Json{{"queue", w.queue}, {"value", w.value}, {"stages", stage_names(w.stages)}}; };
+    const auto wait = [](const Wait& w) { return Json{{"queue", w.queue}, {"value", w.value}, {"stages", stage_names(w.stages)}, {"frames_ago", w.frames_ago}}; };
     const auto signal = [](const Signal& s) { return Json{{"value", s.value}, {"stages", stage_names(s.stages)}}; };
     return {{"queue", row.queue},
             {"waits", slice(plan.waits, row.first_wait, row.wait_count, wait)},
@@ -208,7 +216,31 @@ struct PlanJson {
             {"stages", stage_names(row.stages)},
             {"accesses", access_names(row.accesses)},
             {"layout", layout_name(row.layout)},
+            {"queue", optional_index(row.queue)},
             {"discard", row.discard}};
+  }
+
+  Json acquire(const Acquire& row) const {
+    const auto clocks = [&](size_t first) {
+      Json points = Json::array();
+      for (size_t q = 0; row.first_clock != kNone && q < plan.queues.size(); ++q) points.push_back(optional_index(plan.alias_clocks[first + q]));
+      return points;
+    };
+    return {{"resource", plan.resources[row.resource].name},
+            {"queue", row.queue},
+            {"point", row.point},
+            {"stages", stage_names(row.stages)},
+            {"accesses", access_names(row.accesses)},
+            {"after", clocks(row.first_clock)},
+            {"after_in_frame_before", clocks(row.first_clock + plan.queues.size())}};
+  }
+
+  Json release(const Release& row) const {
+    return {{"resource", plan.resources[row.resource].name},
+            {"queue", row.queue},
+            {"point", row.point},
+            {"stages", stage_names(row.stages)},
+            {"accesses", access_names(row.accesses)}};
   }
 
   Json alias(const AliasPair& row) const {
@@ -263,6 +295,8 @@ Json plan_json(const PlanData& plan) {
           {"batches", all(plan.batches, [&](const Batch& row) { return json.batch(row); })},
           {"entry", all(plan.entry, [&](const Boundary& row) { return json.boundary(row); })},
           {"exit", all(plan.exit, [&](const Boundary& row) { return json.boundary(row); })},
+          {"acquires", all(plan.acquires, [&](const Acquire& row) { return json.acquire(row); })},
+          {"releases", all(plan.releases, [&](const Release& row) { return json.release(row); })},
           {"alias_pairs", all(plan.alias_pairs, [&](const AliasPair& row) { return json.alias(row); })},
           {"alias_by_lifetime", plan.alias_by_lifetime},
           {"culled", all(plan.culled,
