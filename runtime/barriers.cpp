@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "runtime/queues.h"
 #include "runtime/resolve.h"
 
 namespace rg {
@@ -19,7 +20,30 @@ VkMemoryBarrier2 translate(const Context& context, const MemoryBarrier& in) {
           watched(context, in.dst_stages),    in.dst_accesses};
 }
 
-VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkImageSubresourceRange& range) {
+enum class Handover : uint8_t { none, release, acquire, dropped };
+
+// A transfer between two queues of one family is none: its release is dropped, the acquire alone changes the layout.
+Handover handover_of(const Context& context, Index group, Index src_queue, Index dst_queue) {
+  if (src_queue == kNone || dst_queue == kNone) return Handover::none;
+  const bool releases = context.queues.of_group[group] == src_queue;
+  if (changes_family(context, src_queue, dst_queue)) return releases ? Handover::release : Handover::acquire;
+  return releases ? Handover::dropped : Handover::none;
+}
+
+template <class Barrier>
+bool dropped(const Context& context, Index group, const Barrier& in) {
+  return handover_of(context, group, in.src_queue, in.dst_queue) == Handover::dropped;
+}
+
+template <class Out, class In>
+void set_families(const Context& context, const In& in, Out& out) {
+  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  if (!changes_family(context, in.src_queue, in.dst_queue)) return;
+  out.srcQueueFamilyIndex = family_of(context, in.src_queue);
+  out.dstQueueFamilyIndex = family_of(context, in.dst_queue);
+}
+
+VkImageMemoryBarrier2 translate(const Context& context, const ImageBarrier& in, VkImage image, const VkImageSubresourceRange& range) {
   VkImageMemoryBarrier2 out{};
   out.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
   out.srcStageMask = in.src_stages;
@@ -28,7 +52,7 @@ VkImageMemoryBarrier2 translate(const ImageBarrier& in, VkImage image, const VkI
   out.dstAccessMask = in.dst_accesses;
   out.oldLayout = static_cast<VkImageLayout>(in.old_layout);
   out.newLayout = static_cast<VkImageLayout>(in.new_layout);
-  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  set_families(context, in, out);
   out.image = image;
   out.subresourceRange = range;
   return out;
@@ -41,7 +65,7 @@ VkBufferMemoryBarrier2 translate(const Context& context, const BufferBarrier& in
   out.srcAccessMask = in.src_accesses;
   out.dstStageMask = watched(context, in.dst_stages);
   out.dstAccessMask = in.dst_accesses;
-  out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  set_families(context, in, out);
   out.buffer = span.buffer;
   out.offset = span.offset;
   out.size = span.size;
@@ -79,22 +103,24 @@ Patches make_patches(const Plan& plan, const alias::HandOffs& hand_offs) {
 }
 
 // Barriers on mips that do not exist at these extents vanish.
-void add_images(const Context& context, const Sized& sized, const BarrierGroup& group, const Patches& patches, uint32_t phase, GroupTable& table) {
+void add_images(const Context& context, const Sized& sized, Index index, const Patches& patches, uint32_t phase, GroupTable& table) {
+  const BarrierGroup& group = context.plan.groups[index];
   for (Index i = group.first_image; i < group.first_image + group.image_count; ++i) {
     const ImageBarrier& barrier = context.plan.image_barriers[i];
     const VkImageSubresourceRange range = image_range(context, sized, barrier.image.resource, barrier.range);
-    if (range.levelCount == 0) continue;
+    if (range.levelCount == 0 || dropped(context, index, barrier)) continue;
     const VkImage image = imported(sized, barrier.image.resource) ? VkImage(VK_NULL_HANDLE) : image_at(sized, {}, context.plan, barrier.image, phase);
-    VkImageMemoryBarrier2& out = table.images.emplace_back(translate(barrier, image, range));
+    VkImageMemoryBarrier2& out = table.images.emplace_back(translate(context, barrier, image, range));
     out.srcStageMask |= patches.images[i].stages;
     out.srcAccessMask |= patches.images[i].accesses;
   }
 }
 
-void add_buffers(const Context& context, const Sized& sized, const BarrierGroup& group, uint32_t phase, GroupTable& table) {
+void add_buffers(const Context& context, const Sized& sized, Index index, uint32_t phase, GroupTable& table) {
+  const BarrierGroup& group = context.plan.groups[index];
   for (const BufferBarrier& barrier : context.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
     const ByteRange bytes = byte_range(context, sized, barrier.bytes);
-    if (bytes.size == 0) continue;
+    if (bytes.size == 0 || dropped(context, index, barrier)) continue;
     const bool from_engine = imported(sized, barrier.buffer.resource);
     table.buffers.push_back(
         translate(context, barrier, from_engine ? BufferSpan{} : buffer_at(sized, {}, context.plan, barrier.buffer, bytes, phase)));
@@ -102,18 +128,19 @@ void add_buffers(const Context& context, const Sized& sized, const BarrierGroup&
 }
 
 // Same walk as add_images and add_buffers: finds the barriers whose handles come with the frame.
-void list_imports(const Context& context, Sized& sized, const BarrierGroup& group, GroupTable& table) {
+void list_imports(const Context& context, Sized& sized, Index index, GroupTable& table) {
+  const BarrierGroup& group = context.plan.groups[index];
   for (uint32_t phase = 0; phase < table.period; ++phase) {
     size_t image = table.images.size() / table.period * phase, buffer = table.buffers.size() / table.period * phase;
     for (const ImageBarrier& barrier : context.plan.image_barriers.subspan(group.first_image, group.image_count)) {
-      if (image_range(context, sized, barrier.image.resource, barrier.range).levelCount == 0) continue;
+      if (image_range(context, sized, barrier.image.resource, barrier.range).levelCount == 0 || dropped(context, index, barrier)) continue;
       if (imported(sized, barrier.image.resource))
         sized.imported_images.push_back({context.plan.resources[barrier.image.resource].import_slot, &table.images[image]});
       ++image;
     }
     for (const BufferBarrier& barrier : context.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
       const ByteRange bytes = byte_range(context, sized, barrier.bytes);
-      if (bytes.size == 0) continue;
+      if (bytes.size == 0 || dropped(context, index, barrier)) continue;
       if (imported(sized, barrier.buffer.resource)) sized.imported_buffers.push_back({barrier.buffer, &table.buffers[buffer], bytes});
       ++buffer;
     }
@@ -160,14 +187,14 @@ void create_barriers(const Context& context, Sized& sized) {
   alias::find_hand_offs(context.plan, sized.placed, hand_offs);
   const Patches patches = make_patches(context.plan, hand_offs);
   sized.groups.resize(context.plan.groups.size());
-  for (size_t g = 0; g < sized.groups.size(); ++g) {
+  for (Index g = 0; g < sized.groups.size(); ++g) {
     const BarrierGroup& group = context.plan.groups[g];
     GroupTable& table = sized.groups[g];
     table.period = group_period(context, sized, group);
     add_memory(context, group, patches.groups[g], table);
     for (uint32_t phase = 0; phase < table.period; ++phase)
-      add_images(context, sized, group, patches, phase, table), add_buffers(context, sized, group, phase, table);
-    list_imports(context, sized, group, table);
+      add_images(context, sized, g, patches, phase, table), add_buffers(context, sized, g, phase, table);
+    list_imports(context, sized, g, table);
     if (context.device.validating) spell_out_execution(table);
     fill_infos(table);
   }

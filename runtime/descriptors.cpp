@@ -67,7 +67,7 @@ Status create_pool(const Context& context, Sized& sized) {
   info.poolSizeCount = static_cast<uint32_t>(sizes.rows.size());
   info.pPoolSizes = sizes.rows.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateDescriptorPool(context.device.device, &info, nullptr, &pool), "vkCreateDescriptorPool", context.plan.name));
+  RG_TRY(check(context.vk().CreateDescriptorPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateDescriptorPool", context.plan.name));
   sized.descriptor_pool = UniqueDescriptorPool(context.vk(), context.device.device, pool);
   return Done{};
 }
@@ -226,7 +226,7 @@ Status create_ring(const Context& context, Sized& sized) {
   sized.ring.section = round_up(used, std::max<VkDeviceSize>(context.device.limits.minUniformBufferOffsetAlignment, 256));
   constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   const VkDeviceSize bytes = sized.ring.section * context.frames_in_flight;
-  Result<HostBuffer> buffer = create_host_buffer(context.device, bytes, usage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "parameter ring");
+  Result<HostBuffer> buffer = create_host_buffer(context, bytes, usage, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, "parameter ring");
   if (!buffer) return buffer.error();
   sized.ring.memory = std::move(buffer->memory);
   sized.ring.buffer = std::move(buffer->buffer);

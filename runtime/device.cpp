@@ -2,6 +2,8 @@
 
 #include <dlfcn.h>
 
+#include <algorithm>
+
 #include "runtime/device_state.h"
 #include "runtime/errors.h"
 
@@ -24,8 +26,9 @@ Device::State::~State() {
 const DeviceFunctions& Device::vk() const { return state_->vk; }
 VkDevice Device::handle() const { return state_->device; }
 VkPhysicalDevice Device::physical() const { return state_->physical; }
-VkQueue Device::queue() const { return state_->queue; }
-uint32_t Device::queue_family() const { return state_->queue_family; }
+VkQueue Device::queue() const { return state_->queues[0].handle; }
+uint32_t Device::queue_family() const { return state_->queues[0].family; }
+size_t Device::queue_count() const { return state_->queues.size(); }
 std::string_view Device::name() const { return state_->name; }
 const VkPhysicalDeviceLimits& Device::limits() const { return state_->limits; }
 bool Device::validating() const { return state_->validating; }
@@ -44,6 +47,16 @@ uint32_t Device::memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted, V
   return best != UINT32_MAX ? best : find_memory_type(state_->memory, type_bits, wanted);
 }
 
+namespace {
+void describe_queue(const VkQueueFamilyProperties& family, DeviceQueue& queue) {
+  queue.flags = family.queueFlags;
+  if ((queue.flags & (VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT)) != 0) queue.flags |= VK_QUEUE_TRANSFER_BIT;
+  queue.timestamp_bits = family.timestampValidBits;
+  const VkExtent3D& granularity = family.minImageTransferGranularity;
+  queue.whole_copies_only = granularity.width != 1 || granularity.height != 1 || granularity.depth != 1;
+}
+}  // namespace
+
 void describe_physical_device(Device::State& state) {
   VkPhysicalDeviceProperties properties;
   state.vk.GetPhysicalDeviceProperties(state.physical, &properties);
@@ -55,7 +68,22 @@ void describe_physical_device(Device::State& state) {
   state.vk.GetPhysicalDeviceQueueFamilyProperties(state.physical, &count, nullptr);
   std::vector<VkQueueFamilyProperties> families(count);
   state.vk.GetPhysicalDeviceQueueFamilyProperties(state.physical, &count, families.data());
-  if (state.queue_family < count) state.timestamp_bits = families[state.queue_family].timestampValidBits;
+  for (DeviceQueue& queue : state.queues)
+    if (queue.family < count) describe_queue(families[queue.family], queue);
+}
+
+void add_queue(Device::State& state, const ExternalQueue& queue) {
+  if (queue.mutex == nullptr) state.mutexes.push_back(std::make_unique<std::mutex>());
+  state.queues.push_back({queue.queue, queue.family, 0, 0, false, queue.mutex != nullptr ? queue.mutex : state.mutexes.back().get()});
+}
+
+Status Device::wait_idle() {
+  std::vector<std::unique_lock<std::mutex>> locks;
+  for (const DeviceQueue& queue : state_->queues) {
+    const bool locked = std::any_of(locks.begin(), locks.end(), [&](const auto& lock) { return lock.mutex() == queue.mutex; });
+    if (!locked) locks.emplace_back(*queue.mutex);
+  }
+  return check(state_->vk.DeviceWaitIdle(state_->device), "vkDeviceWaitIdle", {});
 }
 
 Result<Device> Device::adopt(const ExternalDevice& external) {
@@ -65,12 +93,23 @@ Result<Device> Device::adopt(const ExternalDevice& external) {
   state->instance = external.instance;
   state->physical = external.physical_device;
   state->device = external.device;
-  state->queue = external.queue;
-  state->queue_family = external.queue_family;
+  add_queue(*state, {external.queue, external.queue_family, external.queue_mutex});
+  for (const ExternalQueue& queue : external.more_queues) add_queue(*state, queue);
+  state->sampler_anisotropy = external.features.sampler_anisotropy;
+  state->multi_draw_indirect = external.features.multi_draw_indirect;
+  state->host_query_reset = external.features.host_query_reset;
+  state->pipeline_statistics = external.features.pipeline_statistics;
+  state->load_op_none = external.features.load_op_none;
+  state->pipeline_cache = external.pipeline_cache;
+  state->vk.allocator = external.allocator;
   const char* missing = load_instance_functions(state->vk, external.get_instance_proc_addr, external.instance);
   if (missing == nullptr) missing = load_device_functions(state->vk, external.device);
   if (missing != nullptr) return Error{ErrorCode::unsupported, std::string("the external device lacks ") + missing + "; create it for Vulkan 1.3"};
   describe_physical_device(*state);
+  constexpr VkQueueFlags universal = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  if ((state->queues[0].flags & universal) != universal)
+    return Error{ErrorCode::invalid_argument, "ExternalDevice::queue must do graphics and compute; its family " +
+                                                  std::to_string(external.queue_family) + " does not"};
   return Device(std::move(state));
 }
 

@@ -5,6 +5,8 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,26 +22,52 @@ struct DeviceOptions {
   bool validate = false;        // Khronos validation with synchronization and submit-time checks; an error if the layer is missing
   std::function<void(bool is_error, std::string_view message)> on_message;  // validation messages
   std::vector<const char*> instance_extensions, device_extensions;
+  std::vector<const char*> layers;  // below validation, in this order
 };
-// An engine's device. Must be Vulkan 1.3 with synchronization2, dynamicRendering and timelineSemaphore enabled. Nothing is owned.
+// A queue that an engine lends. Vulkan wants calls on one queue to exclude each other: where the engine submits to it as well, both lock `mutex`
+// (which outlives the Device); null: only this Device submits to it.
+struct ExternalQueue {
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  std::mutex* mutex = nullptr;
+};
+// Optional device features and extensions that an engine has enabled. What is false is never used; each has a fallback.
+struct EnabledFeatures {
+  bool sampler_anisotropy = false;   // else samplers are isotropic
+  bool multi_draw_indirect = false;  // else one call a draw
+  bool host_query_reset = false;     // else only passes of graphics and compute queues are timed
+  bool pipeline_statistics = false;  // else there are none
+  bool load_op_none = false;         // VK_EXT_load_store_op_none; else attachments that are not touched are loaded
+};
+// An engine's device. Must be Vulkan 1.3 with synchronization2, dynamicRendering and timelineSemaphore enabled. Nothing is owned: everything here
+// outlives the Device.
 struct ExternalDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;                  // does graphics and compute
   uint32_t queue_family = 0;
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  std::mutex* queue_mutex = nullptr;               // see ExternalQueue
+  std::span<const ExternalQueue> more_queues = {};  // taken by plans that have queues of their kind
+  EnabledFeatures features = {};
+  const VkAllocationCallbacks* allocator = nullptr;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  // used by all pipelines of the runtime
 };
 
 // What a null device counts and how it misbehaves.
 struct NullCounters {
   uint64_t fallible_calls = 0;  // calls that return a VkResult, failed ones included
   uint64_t live_handles = 0;    // created and not yet destroyed, without the device itself
+  uint64_t wrong_destroys = 0;  // of handles that are not alive
+  uint64_t unmet_waits = 0;     // waits, on the host or in a submit, for values that nobody had submitted a signal for
 };
 struct NullOptions {
   uint64_t fail_at = 0;                                     // this fallible call and no other fails; counted from 1, 0: none
   VkResult failure = VK_ERROR_OUT_OF_DEVICE_MEMORY;
   NullCounters* counters = nullptr;                         // outlives the device
+  bool fails_from_then_on = false;                          // `fail_at` and all later ones fail: a lost device stays lost
+  uint32_t compute_queues = 0, transfer_queues = 0;         // each kind in a family of its own, beside one universal queue
 };
 
 class Device {
@@ -56,8 +84,11 @@ class Device {
   const DeviceFunctions& vk() const;
   VkDevice handle() const;
   VkPhysicalDevice physical() const;
-  VkQueue queue() const;
+  VkQueue queue() const;  // does graphics and compute
   uint32_t queue_family() const;
+  size_t queue_count() const;             // over all families
+  // Waits on the host until nothing runs; for shutting down. Excludes submits of other threads.
+  Status wait_idle();
   std::string_view name() const;          // "llvmpipe (LLVM 15.0.6, 256 bits)"
   const VkPhysicalDeviceLimits& limits() const;
   bool validating() const;                // the layer is really loaded

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "runtime/device.h"
 #include "runtime/functions.h"
@@ -15,6 +16,16 @@ namespace rg {
 struct NullDevice;  // null_device.cpp
 struct NullDeviceDeleter {
   void operator()(NullDevice* device) const;
+};
+
+// One VkQueue. Several instances, and with a lent one the engine too, submit to it: only under the mutex.
+struct DeviceQueue {
+  VkQueue handle = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  VkQueueFlags flags = 0;  // graphics and compute imply transfer
+  uint32_t timestamp_bits = 0;
+  bool whole_copies_only = false;  // copies of parts of an image are restricted
+  std::mutex* mutex = nullptr;
 };
 
 struct Device::State {
@@ -29,8 +40,8 @@ struct Device::State {
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;
-  uint32_t queue_family = 0;
+  std::vector<DeviceQueue> queues;  // [0] does graphics and compute
+  std::vector<std::unique_ptr<std::mutex>> mutexes;
   bool owned = false;  // instance, messenger and device are destroyed with the state
   std::string name;
   VkPhysicalDeviceLimits limits{};
@@ -40,14 +51,18 @@ struct Device::State {
   bool load_op_none = false;
   bool sampler_anisotropy = false;
   bool multi_draw_indirect = false;
-  uint32_t timestamp_bits = 0;
+  bool host_query_reset = false;
+  bool pipeline_statistics = false;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+  std::atomic<bool> lost = false;  // said once; everything after fails without a call
   std::function<void(bool is_error, std::string_view message)> on_message;
   std::atomic<uint64_t> messages = 0;
-  std::mutex queue_mutex;  // instances of one device submit to one queue
   std::unique_ptr<NullDevice, NullDeviceDeleter> null;
 };
 
-// Limits, memory types, queue properties and name of `physical`; needs the instance functions.
+// Limits, memory types, properties of `queues` and name of `physical`; needs the instance functions.
 void describe_physical_device(Device::State& state);
+
+void add_queue(Device::State& state, const ExternalQueue& queue);
 
 }  // namespace rg

@@ -3,12 +3,12 @@
 #include <cstring>
 
 #include "runtime/errors.h"
-#include "runtime/executor.h"
 #include "runtime/formats.h"
 #include "runtime/layouts.h"
 #include "runtime/record.h"
 #include "runtime/resolve.h"
 #include "runtime/resources.h"
+#include "runtime/timelines.h"
 
 namespace rg {
 
@@ -127,7 +127,7 @@ void record_dump(FrameRecording& r, Index) {
 
 Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
   RG_TRY(check_dump(*state_, pass, resource, mip));
-  RG_TRY(wait_for(*state_, state_->dump.value));  // the buffer of an earlier request may be in use
+  RG_TRY(wait_for(*state_, state_->dump.done));  // the buffer of an earlier request may be in use
   DumpRequest dump;
   dump.pass = pass, dump.resource = resource, dump.mip = mip;
   if (state_->context.plan.resources[resource].kind == ResourceKind::image)
@@ -137,7 +137,7 @@ Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
   if (dump.bytes == 0)
     return Error{ErrorCode::invalid_argument, "`" + std::string(state_->context.plan.resources[resource].name) + "` has no size of its own to dump"};
   Result<HostBuffer> buffer =
-      create_host_buffer(state_->context.device, dump.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, "dump");
+      create_host_buffer(state_->context, dump.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, VK_MEMORY_PROPERTY_HOST_CACHED_BIT, "dump");
   if (!buffer) return buffer.error();
   dump.memory = std::move(buffer->memory);
   dump.buffer = std::move(buffer->buffer);
@@ -147,8 +147,8 @@ Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
 }
 
 Result<Dump> GraphInstance::take_dump() {
-  if (state_->dump.value == 0) return Error{ErrorCode::invalid_argument, "no dump was requested and executed"};
-  RG_TRY(wait_for(*state_, state_->dump.value));
+  if (!state_->dump.recorded) return Error{ErrorCode::invalid_argument, "no dump was requested and executed"};
+  RG_TRY(wait_for(*state_, state_->dump.done));
   DumpRequest taken = std::move(state_->dump);
   state_->dump = {};
   taken.shape.bytes.resize(taken.bytes);

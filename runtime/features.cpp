@@ -20,6 +20,7 @@ constexpr Feature<VkPhysicalDeviceFeatures> kCore[] = {
     RG_FEATURE(VkPhysicalDeviceFeatures, vertexPipelineStoresAndAtomics, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, shaderStorageImageWriteWithoutFormat, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, samplerAnisotropy, false),
+    RG_FEATURE(VkPhysicalDeviceFeatures, pipelineStatisticsQuery, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, multiDrawIndirect, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, drawIndirectFirstInstance, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, imageCubeArray, false),

@@ -6,6 +6,7 @@
 namespace rg {
 
 struct DeviceFunctions {
+  const VkAllocationCallbacks* allocator = nullptr;  // the engine's, for every object made and destroyed through this table
 #define RG_MEMBER(name) PFN_vk##name name = nullptr;
 #define RG_GLOBAL RG_MEMBER
 #define RG_INSTANCE RG_MEMBER

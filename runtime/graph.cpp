@@ -9,8 +9,12 @@
 #include "runtime/pass_tables.h"
 #include "runtime/pipelines.h"
 #include "runtime/plan_check.h"
+#include "runtime/queues.h"
 #include "runtime/resources.h"
 #include "runtime/samplers.h"
+#include "runtime/slots.h"
+#include "runtime/submit.h"
+#include "runtime/timelines.h"
 
 namespace rg {
 
@@ -20,7 +24,9 @@ GraphInstance& GraphInstance::operator=(GraphInstance&&) noexcept = default;
 GraphInstance::~GraphInstance() = default;
 
 GraphInstance::State::~State() {
-  if (timeline) static_cast<void>(wait_for(*this, submitted));  // a lost device has nothing in flight either
+  if (context.device.lost) return;  // nothing is in flight
+  static_cast<void>(wait_for(*this, submitted));
+  for (const FrameSlot& slot : slots) static_cast<void>(wait_for_slot(*this, slot));
 }
 
 namespace {
@@ -28,6 +34,8 @@ namespace {
 Status check_options(const Plan& plan, const GraphOptions& options) {
   if (options.frames_in_flight < 1 || options.frames_in_flight > 4)
     return Error{ErrorCode::invalid_argument, "frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 to 4"};
+  if (options.threads < 1 || options.threads > 64)
+    return Error{ErrorCode::invalid_argument, "threads: " + std::to_string(options.threads) + " is not in 1 to 64"};
   if (options.engine_set_layouts.size() < plan.engine_sets.size())
     return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "` uses " + std::to_string(plan.engine_sets.size()) +
                                                   " engine sets; layouts given: " + std::to_string(options.engine_set_layouts.size())};
@@ -35,9 +43,19 @@ Status check_options(const Plan& plan, const GraphOptions& options) {
 }
 
 Context make_context(Device& device, const Plan& plan, const GraphOptions& options) {
-  Context context{device.state(),          plan, options.frames_in_flight, options.aliasing, options.poison, options.debug_readback,
-                  options.submit_per_pass, {}};
+  Context context{device.state(), plan};
+  context.frames_in_flight = options.frames_in_flight;
+  context.threads = options.submit_per_pass ? 1 : options.threads;
+  context.aliasing = options.aliasing;
+  context.poison = options.poison;
+  context.debug_readback = options.debug_readback;
+  context.submit_per_pass = options.submit_per_pass;
+  context.serial = options.serial;
+  context.timestamps = options.timestamps;
+  context.statistics = options.statistics;
   context.engine_set_layouts.assign(options.engine_set_layouts.begin(), options.engine_set_layouts.end());
+  context.parallel = options.parallel;
+  context.queues = map_queues(device.state(), plan, options.single_queue || options.serial);
   return context;
 }
 
@@ -101,7 +119,7 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents) {
   state.sized = std::move(*sized);
   state.imports_applied = false;
   state.sized_at = state.frame;
-  if (state.dump.value == 0) state.dump = {};  // asked for at other extents
+  if (!state.dump.recorded) state.dump = {};  // asked for at other extents
   return Done{};
 }
 
@@ -120,13 +138,56 @@ Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, co
   return GraphInstance(std::move(state));
 }
 
-Status GraphInstance::resize(std::span<const int64_t> extents) { return rebuild(*state_, extents); }
+namespace {
 
-Status GraphInstance::execute(const FrameInputs& inputs) { return execute_frame(*state_, inputs); }
+// A lost device is reported as what it is, and not called again.
+Status guarded(Device::State& device, Status status) {
+  if (!status && status.error().code == ErrorCode::device_lost) device.lost = true;
+  return status;
+}
+Error lost() { return Error{ErrorCode::device_lost, "the device was lost; destroy everything made from it and create it again"}; }
+
+// What a frame submitted in part leaves behind is thrown away.
+Status mend(GraphInstance::State& state) {
+  if (!state.broken) return Done{};
+  RG_TRY(mend_timelines(state));
+  const std::vector<int64_t> extents = state.sized->extents;
+  RG_TRY(rebuild(state, extents));
+  state.broken = false;
+  return Done{};
+}
+
+Status mend_and_execute(GraphInstance::State& state, const FrameInputs& inputs) {
+  RG_TRY(mend(state));
+  return execute_frame(state, inputs);
+}
+
+Status mend_and_resize(GraphInstance::State& state, std::span<const int64_t> extents) {
+  if (state.broken) RG_TRY(mend_timelines(state));
+  RG_TRY(rebuild(state, extents));
+  state.broken = false;
+  return Done{};
+}
+
+}  // namespace
+
+Status GraphInstance::resize(std::span<const int64_t> extents) {
+  Device::State& device = state_->context.device;
+  return device.lost ? Status(lost()) : guarded(device, mend_and_resize(*state_, extents));
+}
+
+Status GraphInstance::execute(const FrameInputs& inputs) {
+  Device::State& device = state_->context.device;
+  return device.lost ? Status(lost()) : guarded(device, mend_and_execute(*state_, inputs));
+}
 
 Status GraphInstance::wait_idle() {
-  RG_TRY(wait_for(*state_, state_->submitted));
-  return release_retired(*state_);
+  Device::State& device = state_->context.device;
+  if (device.lost) return lost();
+  RG_TRY(guarded(device, wait_for(*state_, state_->submitted)));
+  for (const FrameSlot& slot : state_->slots) RG_TRY(guarded(device, wait_for_slot(*state_, slot)));
+  release_retired(*state_);
+  return Done{};
 }
 
 const PassInfo& GraphInstance::pass_info(Index pass) const { return state_->sized->passes[pass].info; }

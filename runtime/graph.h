@@ -48,6 +48,16 @@ struct ImportedImage { VkImage image = VK_NULL_HANDLE; VkImageView view = VK_NUL
 struct ImportedBuffer { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
 struct Import { ImportedImage image = {}; ImportedBuffer buffer = {}; };
 
+// A semaphore of the engine that a frame waits for or signals; value 0: a binary one.
+// With an import slot it guards that import: the wait is part of the first batch on every queue that touches it (a binary semaphore: of the first such
+// batch alone), the signal comes when its last user is done. Without, the whole frame waits, or is done.
+struct SemaphoreUse {
+  VkSemaphore semaphore = VK_NULL_HANDLE;
+  uint64_t value = 0;
+  VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  Index import_slot = kNone;
+};
+
 struct FrameInputs {
   std::span<const Import> imports = {};                        // by Resource::import_slot
   std::span<const std::span<const std::byte>> params = {};     // by index of Plan::params, exactly `bytes` each
@@ -56,6 +66,13 @@ struct FrameInputs {
   uint64_t conditions = 0;                                // bits of Plan::conditions
   std::span<const std::span<const std::byte>> updates = {};    // by Transfer::update_slot
   std::span<const VkDescriptorSet> engine_sets = {};           // by index of Plan::engine_sets
+  std::span<const SemaphoreUse> waits = {}, signals = {};      // at most 16 each
+};
+
+// How an engine runs recording jobs on its own threads: calls job(data, i) for every i below `count`, in any order, and returns when all are done.
+struct Parallel {
+  void (*run)(void* user, uint32_t count, void (*job)(void* data, uint32_t index), void* data) = nullptr;
+  void* user = nullptr;
 };
 
 struct GraphOptions {
@@ -66,10 +83,20 @@ struct GraphOptions {
   bool poison = false;                    // fills acquired transients with a pattern
   bool debug_readback = false;            // adds transfer usage so that dump() works
   bool submit_per_pass = false;           // times every pass in its own submit by the wall clock: for drivers whose timestamps do not separate passes
+  bool single_queue = false;              // all of the plan's queues on Device::queue, in the order of its batches
+  bool serial = false;                    // single_queue, and every pass waits for all before it
+  bool timestamps = true;                 // two GPU timestamps a pass, for pass_times
+  bool statistics = false;                // pipeline statistics of each pass, where the device has them
+  uint32_t threads = 1;                   // 1 to 64: that many record a frame; callbacks of different passes then run at the same time
+  Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
 };
 
 struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0; };
-struct PassTime { std::string_view pass; double ms = 0; };
+struct PassTime { std::string_view pass; double ms = 0; double begin_ms = 0; };  // begin: after the frame's first timestamp, on the clock of its queue
+struct PassStatistics {  // of one pass of a graphics queue; zeros elsewhere
+  std::string_view pass;
+  uint64_t vertices = 0, vertex_invocations = 0, primitives = 0, fragment_invocations = 0, compute_invocations = 0;
+};
 struct PlacedResource { std::string_view name; uint64_t offset = 0, bytes = 0; };
 
 struct Dump {  // contents of one resource after one pass, tightly packed, mip 0, all layers or slices
@@ -86,9 +113,11 @@ class GraphInstance {
   GraphInstance& operator=(GraphInstance&&) noexcept;
   ~GraphInstance();  // waits for its own frames
 
-  // Re-places and recreates what depends on extents; earlier frames go on undisturbed. On failure the old state stays.
+  // Re-places and recreates what depends on extents; earlier frames go on undisturbed. On failure the old state stays. History and persistent
+  // resources start from their initial values again.
   Status resize(std::span<const int64_t> extents);
-  // Records and submits one frame. Waits only for the frame `frames_in_flight` ago.
+  // Records and submits one frame. Waits only for the frame `frames_in_flight` ago. On failure the frame did not happen; the next call tries again, after a
+  // resize to the same extents where a device of several queues had taken a part of it. A lost device stays lost: all later calls say so at once.
   Status execute(const FrameInputs& inputs);
   Status wait_idle();
 
@@ -97,6 +126,8 @@ class GraphInstance {
   std::vector<PlacedResource> placements() const;
   // Of the last finished frame: GPU timestamps, or wall-clock times with submit_per_pass.
   std::vector<PassTime> pass_times();
+  // Of the last finished frame, with GraphOptions::statistics; empty where the device has none.
+  std::vector<PassStatistics> pass_statistics();
   // Contents of a `readback` buffer of the last finished frame (waits for it). Valid until the next execute.
   Result<std::span<const std::byte>> readback(Index resource);
   // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump.

@@ -14,13 +14,24 @@
 
 namespace rg {
 
+// Where the work of a plan goes on a device; see queues.h.
+struct QueueMap {
+  std::vector<uint32_t> device_queue;     // by Plan::queues: in Device::State::queues
+  std::vector<Index> of_group, of_pass;   // in Plan::queues
+  std::vector<uint32_t> families;         // that may touch concurrent resources, without repetition; the first is that of Device::queue
+  bool several = false;                   // more than one VkQueue
+};
+
 // What every creating function needs.
 struct Context {
   Device::State& device;
   Plan plan;
   uint32_t frames_in_flight = 2;
-  bool aliasing = true, poison = false, debug_readback = false, submit_per_pass = false;
+  uint32_t threads = 1;
+  bool aliasing = true, poison = false, debug_readback = false, submit_per_pass = false, serial = false, timestamps = true, statistics = false;
   std::vector<VkDescriptorSetLayout> engine_set_layouts;
+  Parallel parallel;
+  QueueMap queues;
 
   const DeviceFunctions& vk() const { return device.vk; }
 };
@@ -221,13 +232,56 @@ struct Sized {
 
 // ---- per frame ----------------------------------------------------------------------------------------------------
 
+// Values of an instance's timelines: [0] its own (prologues, single submits, frames of plans that signal nothing), [1 + q] of Plan::queues[q].
+// Zeros: nothing to wait for.
+inline constexpr size_t kMaxPlanQueues = 16;
+struct Moment {
+  std::array<uint64_t, 1 + kMaxPlanQueues> values{};
+};
+
+// A run of steps that one thread records into one command buffer. Without threads: a batch, or a step with submit_per_pass.
+struct Chunk {
+  Index batch = 0;
+  Index first_step = 0, step_count = 0;
+  uint32_t pool = 0;  // of the slot
+};
+// Consecutive batches for one VkQueue: one vkQueueSubmit2.
+struct SubmitCall {
+  uint32_t queue = 0;  // in Device::State::queues
+  Index first_batch = 0, batch_count = 0;
+};
+
 struct FrameSlot {
-  UniqueCommandPool pool;
-  std::vector<VkCommandBuffer> commands;
-  UniqueQueryPool queries;
-  UniqueFence fence;   // only when validating: the layer learns nothing from waits on timelines
-  uint64_t value = 0;  // of the timeline when its last frame is done
+  std::vector<UniqueCommandPool> pools;   // by State::pool_families
+  std::vector<VkCommandBuffer> commands;  // by State::chunks
+  UniqueQueryPool queries;                // two timestamps a pass
+  UniqueQueryPool statistics;             // one query a pass
+  std::vector<UniqueFence> fences;        // by Device::State::queues; only when validating: the layer learns nothing from waits on timelines
+  std::vector<bool> fenced;               // which of them the last frame signals
+  Moment done;                            // of its last frame
+  VkSemaphore engine_done = VK_NULL_HANDLE;  // instead, where the engine submitted that frame
+  uint64_t engine_value = 0;
   uint64_t frame = UINT64_MAX;
+};
+
+// Establishes entry states: a command buffer for Device::queue, then one for each other family that starts out owning something.
+struct Prologue {
+  std::vector<UniqueCommandPool> pools;  // by QueueMap::families
+  std::vector<VkCommandBuffer> commands;
+  std::vector<UniqueFence> fences;       // only when validating
+  std::vector<bool> fenced;
+  Moment done;
+};
+
+// In the order of PassStatistics.
+inline constexpr VkQueryPipelineStatisticFlags kPipelineStatistics =
+    VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_VERTICES_BIT | VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT | VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
+    VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
+
+inline constexpr size_t kMaxExternalSemaphores = 16;  // waits, and signals, of one frame
+struct ImportUse {                                    // by import slot: batches that touch it, one a queue
+  std::vector<Index> first, last;
 };
 
 struct DumpRequest {
@@ -239,12 +293,18 @@ struct DumpRequest {
   Dump shape;
   VkDeviceSize bytes = 0;
   std::vector<VkImageLayout> layouts;  // by layer, right after the pass
-  uint64_t value = 0;                  // 0: not recorded yet
+  bool recorded = false;
+  Moment done;
 };
 
 struct Retired {
-  uint64_t value = 0;
+  Moment moment;
   std::unique_ptr<Sized> sized;
+};
+
+class Workers;
+struct WorkersDeleter {
+  void operator()(Workers* workers) const;
 };
 
 struct GraphInstance::State {
@@ -253,12 +313,21 @@ struct GraphInstance::State {
 
   Context context;
   Objects objects;
-  UniqueSemaphore timeline;
-  uint64_t submitted = 0;                        // last value of `timeline` that was submitted
-  std::vector<UniqueSemaphore> queue_timelines;  // by Plan::queues; empty where the plan signals nothing
-  std::vector<uint64_t> queue_signals;           // most that a queue signals in a frame
+  std::vector<UniqueSemaphore> timelines;  // as in Moment; the plan's only where it signals
+  Moment submitted;                        // the last values that were submitted
+  std::array<uint64_t, kMaxPlanQueues> signals_a_frame{};  // by Plan::queues
+  std::vector<Chunk> chunks;                               // in the order of steps
+  std::vector<uint32_t> first_chunk;                       // by batch, and the end
+  std::vector<uint32_t> pool_families;
+  std::vector<SubmitCall> calls;  // of a frame
+  std::vector<Index> first_batch_of_queue;                 // kNone: no batch
+  std::vector<ImportUse> import_uses;
+  std::vector<VkSemaphoreSubmitInfo> entry_waits;          // of the first batch on every queue of the next frame
   std::vector<FrameSlot> slots;
-  FrameSlot prologue;
+  Prologue prologue;
+  std::unique_ptr<Workers, WorkersDeleter> workers;
+  std::vector<VkResult> chunk_results;
+  bool broken = false;  // a frame was submitted in part: nothing is where the plan expects it
   std::unique_ptr<Sized> sized;
   std::vector<Retired> retired;
   uint64_t frame = 0;

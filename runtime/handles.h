@@ -20,7 +20,7 @@ class Unique {
     return *this;
   }
   ~Unique() {
-    if (handle_ != VK_NULL_HANDLE) (vk_->*Destroy)(device_, handle_, nullptr);
+    if (handle_ != VK_NULL_HANDLE) (vk_->*Destroy)(device_, handle_, vk_->allocator);
   }
   T get() const { return handle_; }
   explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }

@@ -166,7 +166,7 @@ Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, 
   info.allocationSize = bytes;
   info.memoryTypeIndex = type;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  RG_TRY(check(device.vk.AllocateMemory(device.device, &info, nullptr, &memory), "vkAllocateMemory", name));
+  RG_TRY(check(device.vk.AllocateMemory(device.device, &info, device.vk.allocator, &memory), "vkAllocateMemory", name));
   return UniqueMemory(device.vk, device.device, memory);
 }
 

@@ -2,7 +2,8 @@
 // that plain Vulkan function pointers need no global state.
 #include <cstring>
 #include <map>
-#include <tuple>
+#include <mutex>
+#include <set>
 #include <vector>
 
 #include "runtime/device_state.h"
@@ -15,6 +16,11 @@ struct NullCommands {  // behind a VkCommandBuffer
   NullDevice* owner = nullptr;
   uint64_t number = 0;
   VkCommandPool pool = VK_NULL_HANDLE;
+};
+
+struct NullQueue {  // behind a VkQueue
+  NullDevice* owner = nullptr;
+  uint64_t number = 0;
 };
 
 struct NullObject {
@@ -34,9 +40,26 @@ struct NullDevice {
   std::map<VkDeviceMemory, std::vector<std::byte>> mapped;
   std::vector<uint64_t> semaphores;  // counter by number
   std::vector<std::unique_ptr<NullCommands>> commands;
-  std::map<VkDescriptorPool, uint64_t> sets;
+  std::vector<std::unique_ptr<NullQueue>> queues;
+  std::set<std::pair<const char*, uint64_t>> alive;
+  std::recursive_mutex mutex;  // recording threads share it all
 
-  bool fails() { return ++counters->fallible_calls == options.fail_at; }
+  bool fails() {
+    const uint64_t call = ++counters->fallible_calls;
+    return call == options.fail_at || (options.fails_from_then_on && options.fail_at != 0 && call > options.fail_at);
+  }
+  template <class Handle>
+  void born(Handle handle) {
+    ++counters->live_handles;
+    alive.emplace(kHandleName<Handle>, reinterpret_cast<uintptr_t>(handle));
+  }
+  template <class Handle>
+  void dead(Handle handle) {
+    if (handle == VK_NULL_HANDLE) return;
+    const bool lived = alive.erase({kHandleName<Handle>, reinterpret_cast<uintptr_t>(handle)}) != 0;
+    counters->live_handles -= lived ? 1 : 0;
+    counters->wrong_destroys += lived ? 0 : 1;
+  }
 };
 
 void NullDeviceDeleter::operator()(NullDevice* device) const { delete device; }
@@ -44,7 +67,7 @@ void NullDeviceDeleter::operator()(NullDevice* device) const { delete device; }
 namespace {
 
 NullDevice& owner(VkDevice device) { return *reinterpret_cast<NullDevice*>(device); }
-NullDevice& owner(VkQueue queue) { return *reinterpret_cast<NullDevice*>(queue); }
+NullDevice& owner(VkQueue queue) { return *reinterpret_cast<NullQueue*>(queue)->owner; }
 NullDevice& owner(VkCommandBuffer commands) { return *reinterpret_cast<NullCommands*>(commands)->owner; }
 
 template <class Handle>
@@ -54,6 +77,10 @@ Handle new_handle(NullDevice& null) {
 
 void first_argument(NullLine& line, VkCommandBuffer commands) {
   line.text(" commands"), line.number(reinterpret_cast<NullCommands*>(commands)->number);
+}
+void first_argument(NullLine& line, VkQueue queue) {  // the universal queue goes without saying
+  const uint64_t number = reinterpret_cast<NullQueue*>(queue)->number;
+  if (number != 0) line.text(" queue"), line.number(number);
 }
 template <class Handle>
 void first_argument(NullLine&, Handle) {}
@@ -74,6 +101,7 @@ template <class Tag, class Result, class First, class... Rest>
 struct Null<Tag, Result (*)(First, Rest...)> {
   static Result call(First first, Rest... rest) {
     NullDevice& null = owner(first);
+    const std::lock_guard lock(null.mutex);
     NullLine line(null.log);
     begin_line(line, Tag::name, first, rest...);
     if constexpr (std::is_same_v<Result, VkResult>) {
@@ -92,6 +120,7 @@ template <class Tag, class Info, class Handle>
 struct Null<Tag, VkResult (*)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*)> {
   static VkResult call(VkDevice device, const Info* info, const VkAllocationCallbacks*, Handle* handle) {
     NullDevice& null = owner(device);
+    const std::lock_guard lock(null.mutex);
     NullLine line(null.log);
     begin_line(line, Tag::name, device, info);
     if (null.fails()) {
@@ -99,7 +128,7 @@ struct Null<Tag, VkResult (*)(VkDevice, const Info*, const VkAllocationCallbacks
       return null.options.failure;
     }
     *handle = new_handle<Handle>(null);
-    ++null.counters->live_handles;
+    null.born(*handle);
     line.text(" -> "), line.handle(*handle), line.text("\n");
     return VK_SUCCESS;
   }
@@ -110,10 +139,11 @@ template <class Tag, class Handle>
 struct Null<Tag, void (*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
   static void call(VkDevice device, Handle handle, const VkAllocationCallbacks*) {
     NullDevice& null = owner(device);
+    const std::lock_guard lock(null.mutex);
     NullLine line(null.log);
     begin_line(line, Tag::name, device, handle);
     line.text("\n");
-    if (handle != VK_NULL_HANDLE) --null.counters->live_handles;
+    null.dead(handle);
   }
 };
 
@@ -121,11 +151,12 @@ template <class Tag, class Info>
 struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, const VkAllocationCallbacks*, VkPipeline*)> {
   static VkResult call(VkDevice device, VkPipelineCache, uint32_t count, const Info*, const VkAllocationCallbacks*, VkPipeline* pipelines) {
     NullDevice& null = owner(device);
+    const std::lock_guard lock(null.mutex);
     NullLine line(null.log);
     begin_line(line, Tag::name, device, count);
     const bool fails = null.fails();
     for (uint32_t i = 0; i < count; ++i) pipelines[i] = fails ? VkPipeline(VK_NULL_HANDLE) : new_handle<VkPipeline>(null);
-    if (!fails) null.counters->live_handles += count;
+    for (uint32_t i = 0; i < count && !fails; ++i) null.born(pipelines[i]);
     line.text(" -> "), fails ? line.text("failed") : line.handle(pipelines[0]), line.text("\n");
     return fails ? null.options.failure : VK_SUCCESS;
   }
@@ -204,15 +235,46 @@ VkResult VKAPI_CALL semaphore_value(VkDevice device, VkSemaphore semaphore, uint
   return owner(device).fails() ? owner(device).options.failure : VK_SUCCESS;
 }
 
+void check_wait(NullDevice& null, VkSemaphore semaphore, uint64_t value) {
+  const auto number = reinterpret_cast<uintptr_t>(semaphore);
+  if (number >= null.semaphores.size() || null.semaphores[number] < value) ++null.counters->unmet_waits;
+}
+
+VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info, uint64_t timeout) {
+  const VkResult result = Null<TagWaitSemaphores, PFN_vkWaitSemaphores>::call(device, info, timeout);
+  const std::lock_guard lock(owner(device).mutex);
+  for (uint32_t i = 0; i < info->semaphoreCount; ++i) check_wait(owner(device), info->pSemaphores[i], info->pValues[i]);
+  return result;
+}
+
+VkResult VKAPI_CALL signal_semaphore(VkDevice device, const VkSemaphoreSignalInfo* info) {
+  const VkResult result = Null<TagSignalSemaphore, PFN_vkSignalSemaphore>::call(device, info);
+  if (result == VK_SUCCESS) owner(device).semaphores[reinterpret_cast<uintptr_t>(info->semaphore)] = info->value;
+  return result;
+}
+
+// Timelines must grow, and in this device everything is done when it is submitted: so a wait for what is not submitted yet would never end
+// on a real queue that runs in order.
+void run_submit(NullDevice& null, const VkSubmitInfo2& info) {
+  for (uint32_t i = 0; i < info.waitSemaphoreInfoCount; ++i) check_wait(null, info.pWaitSemaphoreInfos[i].semaphore, info.pWaitSemaphoreInfos[i].value);
+  for (uint32_t i = 0; i < info.signalSemaphoreInfoCount; ++i) {
+    const auto number = reinterpret_cast<uintptr_t>(info.pSignalSemaphoreInfos[i].semaphore);
+    const uint64_t value = info.pSignalSemaphoreInfos[i].value;
+    if (number >= null.semaphores.size()) continue;  // the engine's
+    if (value != 0 && value <= null.semaphores[number]) ++null.counters->unmet_waits;
+    null.semaphores[number] = value;
+  }
+}
+
 VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo2* infos, VkFence) {
   NullDevice& null = owner(queue);
+  const std::lock_guard lock(null.mutex);
   const bool fails = null.fails();
   for (uint32_t i = 0; i < count; ++i) {
     NullLine line(null.log);
     begin_line(line, TagQueueSubmit2::name, queue, &infos[i]);
     line.text(fails ? " -> failed\n" : "\n");
-    for (uint32_t s = 0; !fails && s < infos[i].signalSemaphoreInfoCount; ++s)
-      null.semaphores[reinterpret_cast<uintptr_t>(infos[i].pSignalSemaphoreInfos[s].semaphore)] = infos[i].pSignalSemaphoreInfos[s].value;
+    if (!fails) run_submit(null, infos[i]);
   }
   return fails ? null.options.failure : VK_SUCCESS;
 }
@@ -245,10 +307,13 @@ void VKAPI_CALL update_sets(VkDevice device, uint32_t count, const VkWriteDescri
 
 // A clock that ticks a microsecond a query, so that a pass takes 0.001 ms.
 VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool, uint32_t first, uint32_t count, size_t, void* data, VkDeviceSize stride,
-                                  VkQueryResultFlags) {
+                                  VkQueryResultFlags flags) {
+  constexpr uint64_t available = 1;
   for (uint32_t i = 0; i < count; ++i) {
     const uint64_t value = 1000ull * (first + i);
-    std::memcpy(static_cast<std::byte*>(data) + i * stride, &value, sizeof value);
+    std::byte* row = static_cast<std::byte*>(data) + i * stride;
+    for (VkDeviceSize at = 0; at + sizeof value <= stride; at += sizeof value) std::memcpy(row + at, &value, sizeof value);
+    if ((flags & VK_QUERY_RESULT_WITH_AVAILABILITY_BIT) != 0) std::memcpy(row + stride - sizeof available, &available, sizeof available);
   }
   return owner(device).fails() ? owner(device).options.failure : VK_SUCCESS;
 }
@@ -275,6 +340,8 @@ void fill_functions(DeviceFunctions& vk) {
   vk.CreateSemaphore = create_semaphore;
   vk.GetSemaphoreCounterValue = semaphore_value;
   vk.QueueSubmit2 = submit;
+  vk.WaitSemaphores = wait_semaphores;
+  vk.SignalSemaphore = signal_semaphore;
   vk.AllocateCommandBuffers = allocate_commands;
   vk.AllocateDescriptorSets = allocate_sets;
   vk.UpdateDescriptorSets = update_sets;
@@ -285,7 +352,7 @@ void fill_functions(DeviceFunctions& vk) {
 
 void fill_description(Device::State& state) {
   state.name = "null";
-  state.timestamp_bits = 64;
+  state.pipeline_statistics = true;
   state.sampler_anisotropy = state.multi_draw_indirect = true;
   state.limits.timestampPeriod = 1;
   state.limits.maxImageDimension1D = state.limits.maxImageDimension2D = state.limits.maxImageDimension3D = kImageSide;
@@ -306,6 +373,23 @@ void fill_description(Device::State& state) {
 
 }  // namespace
 
+namespace {
+
+void add_null_queues(NullDevice& null, Device::State& state) {
+  constexpr VkQueueFlags kinds[] = {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT,
+                                    VK_QUEUE_TRANSFER_BIT};
+  const uint32_t counts[] = {1, null.options.compute_queues, null.options.transfer_queues};
+  for (uint32_t family = 0; family < 3; ++family)
+    for (uint32_t i = 0; i < counts[family]; ++i) {
+      null.queues.push_back(std::make_unique<NullQueue>(NullQueue{&null, null.queues.size()}));
+      add_queue(state, {reinterpret_cast<VkQueue>(null.queues.back().get()), family, nullptr});
+      state.queues.back().flags = kinds[family];
+      state.queues.back().timestamp_bits = 64;
+    }
+}
+
+}  // namespace
+
 Device Device::null(std::string* log, const NullOptions& options) {
   auto state = std::make_unique<State>();
   NullDevice* null = new NullDevice;
@@ -314,7 +398,7 @@ Device Device::null(std::string* log, const NullOptions& options) {
   null->options = options;
   null->counters = options.counters != nullptr ? options.counters : &null->own_counters;
   state->device = reinterpret_cast<VkDevice>(null);
-  state->queue = reinterpret_cast<VkQueue>(null);
+  add_null_queues(*null, *state);
   state->physical = reinterpret_cast<VkPhysicalDevice>(null);
   state->instance = reinterpret_cast<VkInstance>(null);
   fill_functions(state->vk);

@@ -127,6 +127,8 @@ Status create_messenger(Device::State& state, const ValidationChain& chain) {
 Status create_instance(Device::State& state, const DeviceOptions& options, PFN_vkGetInstanceProcAddr get) {
   RG_TRY(check_loader_version(state.vk));
   if (options.validate) RG_TRY(check_layer(state.vk));
+  for (const char* layer : options.layers)
+    if (!has_layer(state.vk, layer)) return Error{ErrorCode::unsupported, std::string("the layer ") + layer + " was not found"};
   if (options.validate) ask_for_submit_time_checks();
   std::vector<const char*> extensions = options.instance_extensions;
   const bool labels = options.validate || has_instance_extension(state.vk, nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -141,8 +143,10 @@ Status create_instance(Device::State& state, const DeviceOptions& options, PFN_v
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pNext = options.validate ? &chain.features : nullptr;
   info.pApplicationInfo = &application;
-  info.enabledLayerCount = options.validate ? 1 : 0;
-  info.ppEnabledLayerNames = &kValidationLayer;
+  std::vector<const char*> layers = options.layers;
+  if (options.validate) layers.insert(layers.begin(), kValidationLayer);
+  info.enabledLayerCount = static_cast<uint32_t>(layers.size());
+  info.ppEnabledLayerNames = layers.data();
   info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = state.vk.CreateInstance(&info, nullptr, &state.instance);
@@ -251,6 +255,41 @@ void enable_features(Device::State& state, FeatureChain& wanted) {
   enable_available(wanted, available);
   state.sampler_anisotropy = wanted.core.features.samplerAnisotropy == VK_TRUE;
   state.multi_draw_indirect = wanted.core.features.multiDrawIndirect == VK_TRUE;
+  state.pipeline_statistics = wanted.core.features.pipelineStatisticsQuery == VK_TRUE;
+  state.host_query_reset = wanted.v12.hostQueryReset == VK_TRUE;
+}
+
+constexpr uint32_t kQueuesOfAFamily = 2;
+
+// The universal family first. Of every family with queues for work as many as plans are likely to use.
+std::vector<VkDeviceQueueCreateInfo> queue_infos(const Device::State& state) {
+  static constexpr float kPriorities[kQueuesOfAFamily] = {1, 1};
+  uint32_t count = 0;
+  state.vk.GetPhysicalDeviceQueueFamilyProperties(state.physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  state.vk.GetPhysicalDeviceQueueFamilyProperties(state.physical, &count, families.data());
+  const uint32_t universal = universal_family(state, state.physical);
+  std::vector<VkDeviceQueueCreateInfo> infos;
+  for (uint32_t family = 0; family < count; ++family) {
+    constexpr VkQueueFlags work = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+    if ((families[family].queueFlags & work) == 0) continue;
+    VkDeviceQueueCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    info.queueFamilyIndex = family;
+    info.queueCount = std::min(families[family].queueCount, kQueuesOfAFamily);
+    info.pQueuePriorities = kPriorities;
+    infos.insert(family == universal ? infos.begin() : infos.end(), info);
+  }
+  return infos;
+}
+
+void take_queues(Device::State& state, const std::vector<VkDeviceQueueCreateInfo>& infos) {
+  for (const VkDeviceQueueCreateInfo& info : infos)
+    for (uint32_t i = 0; i < info.queueCount; ++i) {
+      VkQueue queue = VK_NULL_HANDLE;
+      state.vk.GetDeviceQueue(state.device, info.queueFamilyIndex, i, &queue);
+      add_queue(state, {queue, info.queueFamilyIndex, nullptr});
+    }
 }
 
 Status create_device(Device::State& state, const DeviceOptions& options) {
@@ -258,23 +297,18 @@ Status create_device(Device::State& state, const DeviceOptions& options) {
   enable_features(state, wanted);
   const Result<std::vector<const char*>> extensions = device_extensions(state, options);
   if (!extensions) return extensions.error();
-  const float priority = 1;
-  VkDeviceQueueCreateInfo queue{};
-  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
-  queue.queueFamilyIndex = state.queue_family;
-  queue.queueCount = 1;
-  queue.pQueuePriorities = &priority;
+  const std::vector<VkDeviceQueueCreateInfo> queues = queue_infos(state);
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.pNext = &wanted.core;
-  info.queueCreateInfoCount = 1;
-  info.pQueueCreateInfos = &queue;
+  info.queueCreateInfoCount = static_cast<uint32_t>(queues.size());
+  info.pQueueCreateInfos = queues.data();
   info.enabledExtensionCount = static_cast<uint32_t>(extensions->size());
   info.ppEnabledExtensionNames = extensions->data();
   RG_TRY(check(state.vk.CreateDevice(state.physical, &info, nullptr, &state.device), "vkCreateDevice", {}));
   if (const char* missing = load_device_functions(state.vk, state.device))
     return Error{ErrorCode::unsupported, std::string("the Vulkan device lacks ") + missing};
-  state.vk.GetDeviceQueue(state.device, state.queue_family, 0, &state.queue);
+  take_queues(state, queues);
   return Done{};
 }
 
@@ -288,7 +322,6 @@ Result<Device> Device::create(const DeviceOptions& options) {
   if (!get) return get.error();
   RG_TRY(create_instance(*state, options, *get));
   RG_TRY(choose_physical_device(*state, options.device));
-  state->queue_family = universal_family(*state, state->physical);
   RG_TRY(create_device(*state, options));
   describe_physical_device(*state);
   return Device(std::move(state));

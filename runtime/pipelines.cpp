@@ -20,7 +20,7 @@ Result<UniqueSetLayout> create_set_layout(const Context& context, std::span<cons
   info.bindingCount = static_cast<uint32_t>(rows.size());
   info.pBindings = rows.data();
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateDescriptorSetLayout(context.device.device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout", name));
+  RG_TRY(check(context.vk().CreateDescriptorSetLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreateDescriptorSetLayout", name));
   return UniqueSetLayout(context.vk(), context.device.device, layout);
 }
 
@@ -49,7 +49,7 @@ Status create_layout(const Context& context, const Objects& objects, const Pass&
   info.pushConstantRangeCount = pass.push_bytes != 0 ? 1 : 0;
   info.pPushConstantRanges = &push;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreatePipelineLayout(context.device.device, &info, nullptr, &layout), "vkCreatePipelineLayout", pass.name));
+  RG_TRY(check(context.vk().CreatePipelineLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreatePipelineLayout", pass.name));
   out.layout = UniquePipelineLayout(context.vk(), context.device.device, layout);
   return Done{};
 }
@@ -65,7 +65,7 @@ Status create_shader(const Context& context, Index index, Shaders& shaders) {
   info.codeSize = module.words.size_bytes();
   info.pCode = module.words.data();
   VkShaderModule shader = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateShaderModule(context.device.device, &info, nullptr, &shader), "vkCreateShaderModule", module.name));
+  RG_TRY(check(context.vk().CreateShaderModule(context.device.device, &info, context.vk().allocator, &shader), "vkCreateShaderModule", module.name));
   shaders[index] = UniqueShader(context.vk(), context.device.device, shader);
   return Done{};
 }
@@ -201,7 +201,7 @@ Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipel
   info.pDynamicState = &state.dynamic;
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateGraphicsPipelines",
+  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateGraphicsPipelines",
                pass.name));
   return handle;
 }
@@ -212,7 +212,7 @@ Result<VkPipeline> create_compute(const Context& context, const PassObjects& pas
   info.stage = stages[0];
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, VK_NULL_HANDLE, 1, &info, nullptr, &handle), "vkCreateComputePipelines",
+  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateComputePipelines",
                pass.name));
   return handle;
 }

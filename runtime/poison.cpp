@@ -2,6 +2,7 @@
 
 #include "runtime/barriers.h"
 #include "runtime/formats.h"
+#include "runtime/queues.h"
 #include "runtime/resolve.h"
 
 namespace rg {
@@ -13,8 +14,12 @@ constexpr uint32_t kPattern = 0x7fc07fc0;  // a NaN as 32-bit and as 16-bit floa
 constexpr VkPipelineStageFlags2 kFillStages = VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
 constexpr float kDepthPattern = 0.625f;
 
-bool can_fill(const Context& context, Index resource) {
-  const Resource& row = context.plan.resources[resource];
+// Compute queues clear no depth, transfer queues no images.
+bool can_fill(const Context& context, const Acquire& acquire) {
+  const Resource& row = context.plan.resources[acquire.resource];
+  const VkQueueFlags flags = queue_of(context, context.queues.of_group[acquire.group]).flags;
+  const VkQueueFlags needed = (row.aspects & (aspect_depth | aspect_stencil)) != 0 ? VK_QUEUE_GRAPHICS_BIT : VK_QUEUE_COMPUTE_BIT;
+  if (row.kind == ResourceKind::image && (flags & needed) == 0) return false;
   return row.kind == ResourceKind::buffer || format_info(static_cast<VkFormat>(row.format)).block_width == 1;
 }
 
@@ -85,7 +90,7 @@ void fill_image(const Context& context, const Sized& sized, const PoisonTable::T
 
 void add_poison(const Context& context, Sized& sized) {
   for (const Acquire& acquire : context.plan.acquires) {
-    if (!can_fill(context, acquire.resource) || sized.resources[acquire.resource].count == 0) continue;
+    if (!can_fill(context, acquire) || sized.resources[acquire.resource].count == 0) continue;
     GroupTable& group = sized.groups[acquire.group];
     PoisonTable& poison = poison_of(sized, group);
     if (context.plan.resources[acquire.resource].kind == ResourceKind::image)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "runtime/queues.h"
 #include "runtime/resolve.h"
 
 namespace rg {
@@ -23,13 +24,10 @@ VkImageMemoryBarrier2 image_barrier(VkImage image, const VkImageSubresourceRange
   return out;
 }
 
-void submit_barriers(const Context& context, const std::vector<VkImageMemoryBarrier2>& images, const std::vector<VkMemoryBarrier2>& memory,
-                     VkCommandBuffer commands) {
-  if (images.empty() && memory.empty()) return;
+void submit_barriers(const Context& context, const std::vector<VkImageMemoryBarrier2>& images, VkCommandBuffer commands) {
+  if (images.empty()) return;
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.memoryBarrierCount = static_cast<uint32_t>(memory.size());
-  info.pMemoryBarriers = memory.data();
   info.imageMemoryBarrierCount = static_cast<uint32_t>(images.size());
   info.pImageMemoryBarriers = images.data();
   context.vk().CmdPipelineBarrier2(commands, &info);
@@ -56,7 +54,7 @@ void prepare_clears(const Context& context, const Sized& sized, uint64_t frame, 
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   }
-  submit_barriers(context, barriers, {}, commands);
+  submit_barriers(context, barriers, commands);
 }
 
 void clear_image(const Context& context, VkImage image, const VkImageSubresourceRange& range, const ClearValue& value, VkCommandBuffer commands) {
@@ -86,42 +84,111 @@ void clear_resources(const Context& context, const Sized& sized, uint64_t frame,
   }
 }
 
-// Ends where the frame's first barriers begin: their source scopes are the boundary's.
-void enter_image(const Context& context, const Sized& sized, const Boundary& boundary, uint64_t frame, std::vector<VkImageMemoryBarrier2>& barriers) {
-  const VkImageSubresourceRange range = image_range(context, sized, boundary.ref.resource, boundary.range);
-  if (range.levelCount == 0 || boundary.layout == Layout::undefined) return;
-  VkImageMemoryBarrier2& barrier = barriers.emplace_back(image_barrier(image_at(sized, {}, context.plan, boundary.ref, frame), range));
-  if (needs_clear(context, sized, boundary)) {
-    barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  }
-  barrier.newLayout = static_cast<VkImageLayout>(boundary.layout);
-  barrier.dstStageMask = boundary.stages != 0 ? boundary.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  barrier.dstAccessMask = boundary.stages != 0 ? boundary.accesses : VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+// The family that owns a range between frames. Concurrent resources, and everything on one family, belong to the home family.
+uint32_t owner_of(const Context& context, const Boundary& boundary) {
+  if (boundary.queue == kNone || context.plan.resources[boundary.ref.resource].concurrent) return context.queues.families[0];
+  return family_of(context, boundary.queue);
 }
 
-void enter(const Context& context, const Sized& sized, uint64_t frame, VkCommandBuffer commands) {
+bool has_contents(const Context& context, const Sized& sized, const Boundary& boundary) {
+  if (sized.resources[boundary.ref.resource].count == 0) return false;
+  return is_image(context, boundary) ? boundary.layout != Layout::undefined : needs_clear(context, sized, boundary);
+}
+
+struct Scope {
+  VkPipelineStageFlags2 stages = 0;
+  VkAccessFlags2 accesses = 0;
+};
+
+// Ends where the frame's first barriers begin: their source scopes are the boundary's.
+Scope entry_scope(const Boundary& boundary) {
+  if (boundary.stages != 0) return {boundary.stages, boundary.accesses};
+  return {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+}
+
+Scope filled_scope(const Context& context, const Sized& sized, const Boundary& boundary) {
+  return needs_clear(context, sized, boundary) ? Scope{kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT} : Scope{};
+}
+
+// What brings the range of an image from where the clears left it to its entry layout.
+VkImageMemoryBarrier2 entry_barrier(const Context& context, const Sized& sized, const Boundary& boundary, uint64_t frame) {
+  const VkImageSubresourceRange range = image_range(context, sized, boundary.ref.resource, boundary.range);
+  VkImageMemoryBarrier2 barrier = image_barrier(image_at(sized, {}, context.plan, boundary.ref, frame), range);
+  if (needs_clear(context, sized, boundary)) barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  barrier.newLayout = static_cast<VkImageLayout>(boundary.layout);
+  return barrier;
+}
+VkBufferMemoryBarrier2 entry_buffer_barrier(const Sized& sized, const Boundary& boundary, uint64_t frame) {
+  VkBufferMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.buffer = sized.buffers[copy_index(sized.resources[boundary.ref.resource], boundary.ref.age, frame)].get();
+  barrier.size = VK_WHOLE_SIZE;
+  return barrier;
+}
+
+// The same two structs, filled for a dependency on one queue, for a release or for an acquire.
+template <class Barrier>
+void set_scopes(Barrier& barrier, Scope src, Scope dst, uint32_t src_family, uint32_t dst_family) {
+  barrier.srcStageMask = src.stages, barrier.srcAccessMask = src.accesses;
+  barrier.dstStageMask = dst.stages, barrier.dstAccessMask = dst.accesses;
+  if (src_family == dst_family) return;
+  barrier.srcQueueFamilyIndex = src_family, barrier.dstQueueFamilyIndex = dst_family;
+}
+
+struct EntryBarriers {
   std::vector<VkImageMemoryBarrier2> images;
-  std::vector<VkMemoryBarrier2> memory;
-  for (const Boundary& boundary : context.plan.entry) {
-    if (sized.resources[boundary.ref.resource].count == 0) continue;
-    if (is_image(context, boundary))
-      enter_image(context, sized, boundary, frame, images);
-    else if (needs_clear(context, sized, boundary))
-      memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                        boundary.stages != 0 ? boundary.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                        boundary.stages != 0 ? boundary.accesses : VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT});
+  std::vector<VkBufferMemoryBarrier2> buffers;
+  std::vector<uint32_t> released;  // buffers, which may appear in several boundary rows
+};
+
+// `family` the home family: transitions and releases; another: its acquires.
+void enter(const Context& context, const Sized& sized, const Boundary& boundary, uint64_t frame, uint32_t family, EntryBarriers& out) {
+  const uint32_t home = context.queues.families[0], owner = owner_of(context, boundary);
+  if (family != home && family != owner) return;
+  const Scope src = family == home ? filled_scope(context, sized, boundary) : Scope{};
+  const Scope dst = family == owner ? entry_scope(boundary) : Scope{};
+  if (is_image(context, boundary)) {
+    if (image_range(context, sized, boundary.ref.resource, boundary.range).levelCount == 0) return;
+    VkImageMemoryBarrier2 barrier = entry_barrier(context, sized, boundary, frame);
+    set_scopes(barrier, src, dst, home, owner);
+    out.images.push_back(barrier);
+    return;
   }
-  submit_barriers(context, images, memory, commands);
+  const uint32_t buffer = copy_index(sized.resources[boundary.ref.resource], boundary.ref.age, frame);
+  if (owner != home && std::find(out.released.begin(), out.released.end(), buffer) != out.released.end()) return;
+  out.released.push_back(buffer);
+  VkBufferMemoryBarrier2 barrier = entry_buffer_barrier(sized, boundary, frame);
+  set_scopes(barrier, src, dst, home, owner);
+  out.buffers.push_back(barrier);
+}
+
+bool record_entry(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t frame, uint32_t family) {
+  EntryBarriers barriers;
+  for (const Boundary& boundary : context.plan.entry)
+    if (has_contents(context, sized, boundary)) enter(context, sized, boundary, frame, family, barriers);
+  if (barriers.images.empty() && barriers.buffers.empty()) return false;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.bufferMemoryBarrierCount = static_cast<uint32_t>(barriers.buffers.size());
+  info.pBufferMemoryBarriers = barriers.buffers.data();
+  info.imageMemoryBarrierCount = static_cast<uint32_t>(barriers.images.size());
+  info.pImageMemoryBarriers = barriers.images.data();
+  context.vk().CmdPipelineBarrier2(commands, &info);
+  return true;
 }
 
 }  // namespace
 
-void record_prologue(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame) {
+bool record_prologue(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame) {
   prepare_clears(context, sized, next_frame, commands);
   clear_resources(context, sized, next_frame, commands);
-  enter(context, sized, next_frame, commands);
+  record_entry(context, sized, commands, next_frame, context.queues.families[0]);
+  return true;
+}
+
+bool record_first_owner(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame, uint32_t family) {
+  return record_entry(context, sized, commands, next_frame, family);
 }
 
 }  // namespace rg

@@ -1,11 +1,14 @@
-// Brings freshly created resources into the plan's entry state, so that no frame is special.
+// Brings fresh resources into the plan's entry state.
 #pragma once
 
 #include "runtime/graph_state.h"
 
 namespace rg {
 
-// Records, for the frame that comes next: initial clears of every copy, then the transition of every entry boundary.
-void record_prologue(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame);
+// On a queue of the first of QueueMap::families: clears, entry layouts, and releases of what other families own at the frame's ends.
+bool record_prologue(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame);
+
+// On a queue of another family: acquires what it owns. False: there was nothing to record.
+bool record_first_owner(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame, uint32_t family);
 
 }  // namespace rg

@@ -1,6 +1,6 @@
 #include "runtime/errors.h"
-#include "runtime/executor.h"
 #include "runtime/resolve.h"
+#include "runtime/timelines.h"
 
 namespace rg {
 

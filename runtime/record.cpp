@@ -1,6 +1,7 @@
 #include "runtime/record.h"
 
 #include "runtime/barriers.h"
+#include "runtime/queues.h"
 #include "runtime/render_pass.h"
 #include "runtime/resolve.h"
 #include "runtime/transfers.h"
@@ -26,6 +27,14 @@ void open_module(FrameRecording& r, const PassObjects& pass) {
   close_module(r);
   if (pass.module_number != 0) begin_label(r, pass.module);
   r.module = pass.module_number;
+}
+
+// Within a rendering scope a query may not begin outside and end inside; around the whole pass it always may.
+void begin_statistics(const FrameRecording& r, Index pass) {
+  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdBeginQuery(r.commands, r.statistics, pass, 0);
+}
+void end_statistics(const FrameRecording& r, Index pass) {
+  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdEndQuery(r.commands, r.statistics, pass);
 }
 
 void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index query) {
@@ -129,6 +138,20 @@ void record_body(const FrameRecording& r, const Pass& pass, const PassObjects& o
   if (pass.rendering != kNone) end_rendering(context, table, r.commands);
 }
 
+void wait_for_all(const FrameRecording& r) {
+  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 nullptr,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &barrier;
+  r.state.context.vk().CmdPipelineBarrier2(r.commands, &info);
+}
+
 void record_pass(FrameRecording& r, Index index) {
   const Pass& pass = r.state.context.plan.passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
@@ -136,13 +159,33 @@ void record_pass(FrameRecording& r, Index index) {
   open_module(r, objects);
   begin_label(r, objects.name);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
+  begin_statistics(r, index);
   if (table.runs && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
+  end_statistics(r, index);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
-  if (r.state.dump.pass == index && r.state.dump.value == 0) record_dump(r, index);
+  if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);
   end_label(r);
+  if (r.state.context.serial) wait_for_all(r);
 }
 
 }  // namespace
+
+FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, VkCommandBuffer commands, Index queue) {
+  const Context& context = state.context;
+  const DeviceQueue& row = queue_of(context, queue);
+  const bool can_reset = context.device.host_query_reset || queue == context.plan.batches[0].queue;
+  const bool timed = can_reset && row.timestamp_bits != 0 && (context.device.host_query_reset || (row.flags & VK_QUEUE_COMPUTE_BIT) != 0);
+  const bool counted = can_reset && (row.flags & VK_QUEUE_GRAPHICS_BIT) != 0;
+  return {state, inputs, commands, state.frame, timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
+          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE), 0};
+}
+
+void reset_queries(const FrameRecording& r) {
+  if (r.state.context.device.host_query_reset) return;
+  const auto passes = static_cast<uint32_t>(r.state.context.plan.passes.size());
+  if (r.queries != VK_NULL_HANDLE) r.state.context.vk().CmdResetQueryPool(r.commands, r.queries, 0, 2 * passes);
+  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdResetQueryPool(r.commands, r.statistics, 0, passes);
+}
 
 void close_module(FrameRecording& r) {
   if (r.module != 0) end_label(r);

@@ -10,9 +10,16 @@ struct FrameRecording {
   const FrameInputs& inputs;
   VkCommandBuffer commands = VK_NULL_HANDLE;
   uint64_t frame = 0;
-  VkQueryPool queries = VK_NULL_HANDLE;  // null: no timestamps
-  uint32_t module = 0;                   // whose label is open; 0: none
+  VkQueryPool queries = VK_NULL_HANDLE;     // null: no timestamps
+  VkQueryPool statistics = VK_NULL_HANDLE;  // null: none
+  uint32_t module = 0;                      // whose label is open; 0: none
 };
+
+// For a command buffer of a queue of the plan, with the queries that this queue can write.
+FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, VkCommandBuffer commands, Index queue);
+
+// First in a frame, where the host cannot do it.
+void reset_queries(const FrameRecording& recording);
 
 void record_step(FrameRecording& recording, const Step& step);
 void close_module(FrameRecording& recording);  // at the end of every command buffer

@@ -241,7 +241,7 @@ Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass) 
   info.subpassCount = 1;
   info.pSubpasses = &subpass;
   VkRenderPass handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateRenderPass2(context.device.device, &info, nullptr, &handle), "vkCreateRenderPass2", name));
+  RG_TRY(check(context.vk().CreateRenderPass2(context.device.device, &info, context.vk().allocator, &handle), "vkCreateRenderPass2", name));
   return UniqueRenderPass(context.vk(), context.device.device, handle);
 }
 
@@ -272,7 +272,7 @@ Result<UniqueFramebuffer> create_framebuffer(const Context& context, const PassT
   info.height = pass.rendering.area.extent.height;
   info.layers = pass.rendering.view_mask != 0 ? 1 : pass.rendering.layers;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateFramebuffer(context.device.device, &info, nullptr, &framebuffer), "vkCreateFramebuffer", pass.info.name));
+  RG_TRY(check(context.vk().CreateFramebuffer(context.device.device, &info, context.vk().allocator, &framebuffer), "vkCreateFramebuffer", pass.info.name));
   return UniqueFramebuffer(context.vk(), context.device.device, framebuffer);
 }
 

@@ -87,6 +87,16 @@ VkImageType image_type(Dimension dimension) {
   return dimension == Dimension::d3 ? VK_IMAGE_TYPE_3D : VK_IMAGE_TYPE_2D;
 }
 
+// Resources of several families: those that the plan declares so, and what the frame reads back, whose writers need no transfer.
+template <class Info>
+void share(const Context& context, const Resource& resource, Info& info) {
+  const bool shared = context.queues.families.size() > 1 && (resource.concurrent || resource.lifetime == Lifetime::readback);
+  info.sharingMode = shared ? VK_SHARING_MODE_CONCURRENT : VK_SHARING_MODE_EXCLUSIVE;
+  if (!shared) return;
+  info.queueFamilyIndexCount = static_cast<uint32_t>(context.queues.families.size());
+  info.pQueueFamilyIndices = context.queues.families.data();
+}
+
 VkImageCreateInfo image_info(const Context& context, const Resource& resource, const SizedResource& sized) {
   VkImageCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -99,7 +109,7 @@ VkImageCreateInfo image_info(const Context& context, const Resource& resource, c
   info.samples = static_cast<VkSampleCountFlagBits>(resource.samples);
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = image_usage(context, resource);
-  info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  share(context, resource, info);
   info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
   return info;
 }
@@ -120,7 +130,7 @@ Status create_image(const Context& context, const Resource& resource, const Size
   RG_TRY(check_image_support(context, resource, info));
   for (uint32_t copy = 0; copy < size.count; ++copy) {
     VkImage image = VK_NULL_HANDLE;
-    RG_TRY(check(context.vk().CreateImage(context.device.device, &info, nullptr, &image), "vkCreateImage", resource.name));
+    RG_TRY(check(context.vk().CreateImage(context.device.device, &info, context.vk().allocator, &image), "vkCreateImage", resource.name));
     sized.images.emplace_back(context.vk(), context.device.device, image);
     name_object(context.device, VK_OBJECT_TYPE_IMAGE, image, resource.name);
   }
@@ -132,9 +142,10 @@ Status create_buffer(const Context& context, const Resource& resource, const Siz
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size.bytes;
   info.usage = buffer_usage(context, resource);
+  share(context, resource, info);
   for (uint32_t copy = 0; copy < size.count; ++copy) {
     VkBuffer buffer = VK_NULL_HANDLE;
-    RG_TRY(check(context.vk().CreateBuffer(context.device.device, &info, nullptr, &buffer), "vkCreateBuffer", resource.name));
+    RG_TRY(check(context.vk().CreateBuffer(context.device.device, &info, context.vk().allocator, &buffer), "vkCreateBuffer", resource.name));
     sized.buffers.emplace_back(context.vk(), context.device.device, buffer);
     name_object(context.device, VK_OBJECT_TYPE_BUFFER, buffer, resource.name);
   }
@@ -188,15 +199,19 @@ uint32_t find_memory_type(const Device::State& device, uint32_t type_bits, VkMem
   return UINT32_MAX;
 }
 
-Result<HostBuffer> create_host_buffer(Device::State& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
+Result<HostBuffer> create_host_buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
                                       std::string_view name) {
+  Device::State& device = context.device;
   HostBuffer out;
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
   info.usage = usage;
+  Resource shared;
+  shared.concurrent = true;
+  share(context, shared, info);
   VkBuffer buffer = VK_NULL_HANDLE;
-  RG_TRY(check(device.vk.CreateBuffer(device.device, &info, nullptr, &buffer), "vkCreateBuffer", name));
+  RG_TRY(check(device.vk.CreateBuffer(device.device, &info, device.vk.allocator, &buffer), "vkCreateBuffer", name));
   out.buffer = UniqueBuffer(device.vk, device.device, buffer);
   name_object(device, VK_OBJECT_TYPE_BUFFER, buffer, name);
   VkMemoryRequirements requirements;

@@ -11,13 +11,13 @@ Status size_resources(const Context& context, Sized& sized);
 // Creates images and buffers, places and binds them, fills the memory report.
 Status create_resources(const Context& context, Sized& sized);
 
-// A buffer of its own in mapped host memory.
+// A buffer of its own in mapped host memory, for all queues.
 struct HostBuffer {
   UniqueMemory memory;
   UniqueBuffer buffer;
   std::byte* mapped = nullptr;
 };
-Result<HostBuffer> create_host_buffer(Device::State& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
+Result<HostBuffer> create_host_buffer(const Context& context, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags preferred,
                                       std::string_view name);
 
 uint32_t find_memory_type(const Device::State& device, uint32_t type_bits, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred);

@@ -28,7 +28,7 @@ Status create_samplers(const Context& context, Objects& objects) {
   for (const Sampler& sampler : context.plan.samplers) {
     const VkSamplerCreateInfo info = sampler_info(context, sampler);
     VkSampler handle = VK_NULL_HANDLE;
-    RG_TRY(check(context.vk().CreateSampler(context.device.device, &info, nullptr, &handle), "vkCreateSampler", sampler.name));
+    RG_TRY(check(context.vk().CreateSampler(context.device.device, &info, context.vk().allocator, &handle), "vkCreateSampler", sampler.name));
     objects.samplers.emplace_back(context.vk(), context.device.device, handle);
   }
   return Done{};

@@ -70,7 +70,7 @@ Result<UniqueView> create_view(const Context& context, VkImageViewCreateInfo inf
   info.pNext = &usage;
   info.image = image;
   VkImageView view = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateImageView(context.device.device, &info, nullptr, &view), "vkCreateImageView", name));
+  RG_TRY(check(context.vk().CreateImageView(context.device.device, &info, context.vk().allocator, &view), "vkCreateImageView", name));
   return UniqueView(context.vk(), context.device.device, view);
 }
 

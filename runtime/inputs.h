@@ -1,0 +1,14 @@
+// What the host brings to a frame. Allocates nothing unless something is wrong.
+#pragma once
+
+#include "runtime/graph_state.h"
+
+namespace rg {
+
+// Sizes and presence of everything, against the plan. Nothing has happened where it fails.
+Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs);
+
+// Puts imports into barriers, views and sets; copies parameters and updates into the slot's section of the ring.
+Status take_inputs(GraphInstance::State& state, const FrameInputs& inputs);
+
+}  // namespace rg
