@@ -29,9 +29,9 @@ struct Context {
   uint32_t frames_in_flight = 2;
   uint32_t threads = 1;
   bool aliasing = true, poison = false, debug_readback = false, submit_per_pass = false, serial = false, timestamps = true, statistics = false;
-  std::vector<VkDescriptorSetLayout> engine_set_layouts;
-  Parallel parallel;
-  QueueMap queues;
+  std::vector<VkDescriptorSetLayout> engine_set_layouts = {};
+  Parallel parallel = {};
+  QueueMap queues = {};
 
   const DeviceFunctions& vk() const { return device.vk; }
 };

@@ -237,7 +237,8 @@ VkResult VKAPI_CALL semaphore_value(VkDevice device, VkSemaphore semaphore, uint
 
 void check_wait(NullDevice& null, VkSemaphore semaphore, uint64_t value) {
   const auto number = reinterpret_cast<uintptr_t>(semaphore);
-  if (number >= null.semaphores.size() || null.semaphores[number] < value) ++null.counters->unmet_waits;
+  const bool ours = number < null.semaphores.size();
+  if (ours && null.semaphores[number] < value) ++null.counters->unmet_waits;
 }
 
 VkResult VKAPI_CALL wait_semaphores(VkDevice device, const VkSemaphoreWaitInfo* info, uint64_t timeout) {

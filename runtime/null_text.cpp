@@ -22,6 +22,13 @@ void scope(NullLine& line, uint64_t src_stages, uint64_t src_accesses, uint64_t 
   line.hex(dst_stages), line.text("/"), line.hex(dst_accesses);
 }
 
+template <class Barrier>
+void families(NullLine& line, const Barrier& barrier) {
+  if (barrier.srcQueueFamilyIndex == barrier.dstQueueFamilyIndex) return;
+  pair(line, " family ", barrier.srcQueueFamilyIndex);
+  pair(line, "->", barrier.dstQueueFamilyIndex);
+}
+
 void layers(NullLine& line, const VkImageSubresourceLayers& value) {
   pair(line, "aspects ", value.aspectMask);
   pair(line, " mip ", value.mipLevel);
@@ -51,13 +58,14 @@ void print_struct(NullLine& line, const VkDependencyInfo& info) {
     const VkBufferMemoryBarrier2& b = info.pBufferMemoryBarriers[i];
     line.text("["), line.handle(b.buffer), line.text(" "), scope(line, b.srcStageMask, b.srcAccessMask, b.dstStageMask, b.dstAccessMask);
     pair(line, " bytes ", b.offset);
-    line.text("+"), b.size == VK_WHOLE_SIZE ? line.text("rest") : line.number(b.size), line.text("]");
+    line.text("+"), b.size == VK_WHOLE_SIZE ? line.text("rest") : line.number(b.size), families(line, b), line.text("]");
   }
   for (uint32_t i = 0; i < info.imageMemoryBarrierCount; ++i) {
     const VkImageMemoryBarrier2& b = info.pImageMemoryBarriers[i];
     line.text("["), line.handle(b.image), line.text(" "), scope(line, b.srcStageMask, b.srcAccessMask, b.dstStageMask, b.dstAccessMask);
     pair(line, " layout ", b.oldLayout), pair(line, "->", b.newLayout), line.text(" ");
     print_struct(line, b.subresourceRange);
+    families(line, b);
     line.text("]");
   }
 }
@@ -80,11 +88,13 @@ void print_struct(NullLine& line, const VkImageCreateInfo& info) {
   extent(line, info.extent);
   pair(line, " mips ", info.mipLevels), pair(line, " layers ", info.arrayLayers), pair(line, " samples ", info.samples);
   line.text(" usage "), line.hex(info.usage), line.text(" flags "), line.hex(info.flags);
+  if (info.sharingMode == VK_SHARING_MODE_CONCURRENT) line.text(" shared");
 }
 
 void print_struct(NullLine& line, const VkBufferCreateInfo& info) {
   pair(line, "bytes ", info.size);
   line.text(" usage "), line.hex(info.usage);
+  if (info.sharingMode == VK_SHARING_MODE_CONCURRENT) line.text(" shared");
 }
 
 void print_struct(NullLine& line, const VkImageViewCreateInfo& info) {
@@ -147,7 +157,10 @@ void print_struct(NullLine& line, const VkClearColorValue& info) {
 void print_struct(NullLine& line, const VkClearDepthStencilValue& info) { line.real(info.depth), pair(line, ",", info.stencil); }
 
 void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info) {
-  for (uint32_t i = 0; i < info.semaphoreCount; ++i) line.handle(info.pSemaphores[i]), pair(line, ">=", info.pValues[i]);
+  for (uint32_t i = 0; i < info.semaphoreCount; ++i) {
+    line.text(i == 0 ? "" : " "), line.handle(info.pSemaphores[i]);
+    pair(line, ">=", info.pValues[i]);
+  }
 }
 
 void print_struct(NullLine& line, const VkDescriptorSet& info) { line.handle(info); }

@@ -3,43 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "runtime/plan_check_parts.h"
+
 namespace rg {
 
 namespace {
 
-// Collects the first fault; later calls are free.
-class Checker {
- public:
-  explicit Checker(const Plan& plan) : plan_(plan) {}
-
-  void that(bool holds, std::string_view table, size_t row, std::string_view what) {
-    if (holds || !fault_.empty()) return;
-    fault_.append("plan `").append(plan_.name).append("`: ").append(table).append(" ").append(std::to_string(row)).append(": ").append(what);
-  }
-  void index(Index value, size_t size, std::string_view table, size_t row, std::string_view what) { that(value < size, table, row, what); }
-  void optional(Index value, size_t size, std::string_view table, size_t row, std::string_view what) {
-    that(value == kNone || value < size, table, row, what);
-  }
-  void range(Index first, uint32_t count, size_t size, std::string_view table, size_t row, std::string_view what) {
-    that(count == 0 || (first <= size && count <= size - first), table, row, what);
-  }
-  void expr(Index value, std::string_view table, size_t row, std::string_view what) { optional(value, plan_.exprs.size(), table, row, what); }
-  void ref(Ref value, ResourceKind kind, std::string_view table, size_t row, std::string_view what) {
-    index(value.resource, plan_.resources.size(), table, row, what);
-    if (ok()) that(plan_.resources[value.resource].kind == kind, table, row, what);
-  }
-  void any_ref(Ref value, std::string_view table, size_t row) { index(value.resource, plan_.resources.size(), table, row, "resource"); }
-  void bytes(const Bytes& value, std::string_view table, size_t row) {
-    expr(value.offset, table, row, "byte offset");
-    expr(value.size, table, row, "byte size");
-  }
-  bool ok() const { return fault_.empty(); }
-  Status status() const { return ok() ? Status(Done{}) : Status(Error{ErrorCode::invalid_plan, fault_}); }
-
- private:
-  const Plan& plan_;
-  std::string fault_;
-};
+using plan_check::Checker;
 
 bool has_operands(ExprOp op) { return op != ExprOp::constant && op != ExprOp::extent; }
 
@@ -214,25 +184,6 @@ void check_pass(const Plan& plan, size_t i, Checker& c) {
   check_work(plan, pass, i, c);
 }
 
-void check_schedule(const Plan& plan, Checker& c) {
-  c.that(!plan.batches.empty(), "plan", 0, "no batch");
-  for (size_t i = 0; i < plan.batches.size(); ++i) {
-    const Batch& batch = plan.batches[i];
-    c.index(batch.queue, plan.queues.size(), "batch", i, "queue");
-    c.range(batch.first_step, batch.step_count, plan.steps.size(), "batch", i, "steps");
-    c.range(batch.first_wait, batch.wait_count, plan.waits.size(), "batch", i, "waits");
-    c.range(batch.first_signal, batch.signal_count, plan.signals.size(), "batch", i, "signals");
-  }
-  for (size_t i = 0; i < plan.steps.size(); ++i) {
-    const bool barriers = plan.steps[i].kind == StepKind::barriers;
-    c.index(plan.steps[i].index, barriers ? plan.groups.size() : plan.passes.size(), "step", i, "index");
-  }
-  for (size_t i = 0; i < plan.waits.size(); ++i) {
-    c.index(plan.waits[i].queue, plan.queues.size(), "wait", i, "queue");
-    c.that(!plan.signals.empty(), "wait", i, "nothing signals");
-  }
-}
-
 void check_small_tables(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.accesses.size(); ++i) c.any_ref(plan.accesses[i].ref, "access", i);
   for (size_t i = 0; i < plan.bindings.size(); ++i) check_binding(plan, i, c);
@@ -261,7 +212,7 @@ Status check_plan(const Plan& plan) {
   check_pipelines(plan, checker);
   check_small_tables(plan, checker);
   for (size_t i = 0; i < plan.passes.size(); ++i) check_pass(plan, i, checker);
-  check_schedule(plan, checker);
+  plan_check::check_schedule(plan, checker);
   return checker.status();
 }
 

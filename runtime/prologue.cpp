@@ -107,7 +107,8 @@ Scope entry_scope(const Boundary& boundary) {
 }
 
 Scope filled_scope(const Context& context, const Sized& sized, const Boundary& boundary) {
-  return needs_clear(context, sized, boundary) ? Scope{kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT} : Scope{};
+  if (!needs_clear(context, sized, boundary)) return {};
+  return {is_image(context, boundary) ? VK_PIPELINE_STAGE_2_CLEAR_BIT : kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT};
 }
 
 // What brings the range of an image from where the clears left it to its entry layout.

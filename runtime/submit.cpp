@@ -201,7 +201,7 @@ Status submit_frame(GraphInstance::State& state, const FrameInputs& inputs, Fram
   const bool lead_out = builder.needs_lead_out();
   if (lead_out) builder.lead_out();
 
-  const uint32_t home = state.calls.front().queue;
+  constexpr uint32_t home = 0;
   const VkSubmitInfo2* infos = state.submits.data() + (lead_in ? 1 : 0);
   const Status led_in = lead_in ? queue_submit(state.context, home, 1, state.submits.data(), VK_NULL_HANDLE) : Status(Done{});
   if (led_in && lead_in) state.submitted.values[0] = builder.after().values[0];

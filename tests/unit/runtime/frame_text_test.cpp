@@ -110,24 +110,5 @@ TEST_F(FrameText, OneSubmitAStepWhereThePassesAreTimedByTheClock) {
   EXPECT_EQ(graph.pass_times().size(), 2u);
 }
 
-// ---- batches ------------------------------------------------------------------------------------------------------
-
-TEST_F(FrameText, BatchesWaitForSignalsOfOtherQueues) {
-  test::ClearAndCopy t = test::clear_and_copy();
-  t.plan.queues = {{QueueKind::graphics}, {QueueKind::compute}};
-  t.plan.batches = {{1, 0, 2, 0, 0, 0, 1}, {0, 2, 3, 0, 1, 1, 0}};
-  const std::vector<Wait> waits = {{1, 1, stage::copy}};
-  const std::vector<Signal> signals = {{1, stage::clear}};
-  Plan plan = t.plan.view();
-  t.plan.batches[0].step_count = 2;
-  plan.waits = waits, plan.signals = signals;
-  Result<GraphInstance> graph = GraphInstance::create(device, plan, {});
-  ASSERT_TRUE(graph) << graph.error().message;
-  EXPECT_EQ(test::calls(frame(*graph), "vkQueueSubmit2"),
-            (std::vector<std::string>{"vkQueueSubmit2 signal semaphore3=1", "vkQueueSubmit2 wait semaphore3=1 signal semaphore1=2"}));
-  EXPECT_EQ(test::calls(frame(*graph), "vkQueueSubmit2"),
-            (std::vector<std::string>{"vkQueueSubmit2 signal semaphore3=2", "vkQueueSubmit2 wait semaphore3=2 signal semaphore1=3"}));
-}
-
 }  // namespace
 }  // namespace rg

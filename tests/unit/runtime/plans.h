@@ -131,6 +131,58 @@ inline Tint tint() {
   return t;
 }
 
+// Three queues hand a value on: the transfer queue uploads `given`, the compute queue writes sum = given + step and clears `picture`, the graphics
+// queue copies both to the host. Every queue waits for the readers of the frame before.
+//   groups: 0 picture discarded  1 picture released  2 picture acquired  3 results -> host
+enum RelayWait : Index { kGivenWasRead, kGivenIsThere, kResultsWereRead, kSumIsThere };  // in Plan::waits
+struct Relay {
+  TestPlan plan;
+  Index given = 0, sum = 0, picture = 0, result_sum = 0, result_picture = 0;
+};
+inline Relay relay() {
+  constexpr Index graphics = 0, compute = 1, transfer = 2;
+  Relay t;
+  TestPlan& p = t.plan;
+  p.queues = {{QueueKind::graphics}, {QueueKind::compute}, {QueueKind::transfer}};
+  const Index bytes = p.constant(64 * 4), side = p.constant(8), one = p.constant(1);
+  t.given = p.buffer("given", bytes, kStorageBuffer | kCopyDst);
+  t.sum = p.buffer("sum", bytes, kStorageBuffer | kCopySrc);
+  t.picture = p.image("picture", kR32f, side, side, kCopyDst | kCopySrc);
+  t.result_sum = p.buffer("result_sum", bytes, kCopyDst, Lifetime::readback);
+  t.result_picture = p.buffer("result_picture", bytes, kCopyDst, Lifetime::readback);
+  p.resources[t.given].concurrent = p.resources[t.sum].concurrent = true;
+  p.resources[t.given].no_alias = p.resources[t.sum].no_alias = p.resources[t.picture].no_alias = true;
+
+  Transfer upload;
+  upload.kind = TransferKind::update, upload.dst = {t.given, 0}, upload.update_slot = 0;
+  p.transfer("upload", {upload}, {touches({t.given, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  p.end_batch(transfer, {{compute, 1, stage::copy, 1}}, stage::copy);
+
+  add_shader_pass(p, "add", {t.given, 0}, {t.sum, 0}, one);
+  p.barriers({discard(t.picture, stage::clear, access::transfer_write, Layout::transfer_dst, stage::clear)});
+  Transfer clear;
+  clear.kind = TransferKind::clear_color, clear.dst = {t.picture, 0}, clear.value = {{0x40400000, 0, 0, 0}};
+  p.transfer("clear", {clear}, {touches({t.picture, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
+  ImageBarrier handed = transition(t.picture, stage::clear, access::transfer_write, Layout::transfer_dst, 0, 0, Layout::transfer_src);
+  handed.src_queue = compute, handed.dst_queue = graphics;
+  p.barriers({handed});
+  p.end_batch(compute, {{transfer, 1, stage::compute_shader}, {graphics, 1, stage::compute_shader | stage::clear, 1}}, stage::all_commands);
+
+  handed.src_stages = stage::copy, handed.src_accesses = 0, handed.dst_stages = stage::copy, handed.dst_accesses = access::transfer_read;
+  p.barriers({handed});
+  Transfer copy_sum, copy_picture;
+  copy_sum.kind = TransferKind::copy_buffer, copy_sum.src = {t.sum, 0}, copy_sum.dst = {t.result_sum, 0};
+  copy_picture.kind = TransferKind::copy_image_to_buffer, copy_picture.src = {t.picture, 0}, copy_picture.dst = {t.result_picture, 0};
+  p.transfer("copy", {copy_sum, copy_picture},
+             {touches({t.sum, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
+              touches({t.picture, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
+              touches({t.result_sum, 0}, stage::copy, access::transfer_write, Layout::undefined, true),
+              touches({t.result_picture, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  p.barriers({}, {to_host(t.result_sum), to_host(t.result_picture)});
+  p.end_batch(graphics, {{compute, 1, stage::copy}}, stage::all_commands);
+  return t;
+}
+
 // Mips 1 to 3 of an image are cleared one pass each, mip m to the value m; the last existing one is not known before.
 struct Mips {
   TestPlan plan;

@@ -21,6 +21,8 @@ struct TestPlan {
   std::vector<Queue> queues = {{QueueKind::graphics}};
   std::vector<Batch> batches;
   std::vector<Step> steps;
+  std::vector<Wait> waits;
+  std::vector<Signal> signals;
   std::vector<BarrierGroup> groups;
   std::vector<MemoryBarrier> memory_barriers;
   std::vector<ImageBarrier> image_barriers;
@@ -43,6 +45,8 @@ struct TestPlan {
   std::vector<Transfer> transfers;
   std::vector<MipLimit> mip_limits;
   std::vector<std::string_view> conditions;
+
+  std::vector<Batch> one_batch;
 
   template <class Row>
   static Index add(std::vector<Row>& table, Row row) {
@@ -94,20 +98,38 @@ struct TestPlan {
     return pass(row, std::move(touched));
   }
 
+  // Ends a batch on `queue` here: it has the steps since the last one. `signal_stages` 0: it signals nothing.
+  void end_batch(Index queue, std::vector<Wait> waited = {}, Stages signal_stages = stage::all_commands) {
+    Batch batch;
+    batch.queue = queue;
+    for (const Batch& before : batches) batch.first_step += before.step_count;
+    batch.step_count = static_cast<uint32_t>(steps.size()) - batch.first_step;
+    batch.first_wait = static_cast<Index>(waits.size()), batch.wait_count = static_cast<uint32_t>(waited.size());
+    waits.insert(waits.end(), waited.begin(), waited.end());
+    batch.first_signal = static_cast<Index>(signals.size()), batch.signal_count = signal_stages != 0 ? 1 : 0;
+    uint64_t value = 1;
+    for (const Batch& before : batches)
+      if (before.queue == queue) value += before.signal_count;
+    if (signal_stages != 0) signals.push_back({value, signal_stages});
+    for (const Step& step : std::span(steps).subspan(batch.first_step))
+      if (step.kind == StepKind::pass) passes[step.index].queue = queue;
+    batches.push_back(batch);
+  }
+
   // Puts every step so far into one batch, where no batch was made by hand.
   Plan view() {
-    if (batches.empty()) batches.push_back({0, 0, static_cast<uint32_t>(steps.size()), 0, 0, 0, 0});
-    batches.front().step_count = static_cast<uint32_t>(steps.size());
+    std::vector<Batch>& listed = batches.empty() ? one_batch : batches;
+    one_batch.assign(1, {0, 0, static_cast<uint32_t>(steps.size()), 0, 0, 0, 0});
     Plan plan = base;
     if (plan.name.empty()) plan.name = "test";
-    plan.exprs = exprs, plan.extents = extents, plan.resources = resources, plan.queues = queues, plan.batches = batches, plan.steps = steps;
+    plan.exprs = exprs, plan.extents = extents, plan.resources = resources, plan.queues = queues, plan.batches = listed, plan.steps = steps;
     plan.groups = groups, plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
     plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs, plan.passes = passes,
     plan.accesses = accesses;
     plan.renderings = renderings, plan.attachments = attachments, plan.shaders = shaders, plan.pipelines = pipelines,
     plan.pipeline_shaders = pipeline_shaders;
     plan.bindings = bindings, plan.samplers = samplers, plan.params = params, plan.pass_params = pass_params, plan.transfers = transfers;
-    plan.mip_limits = mip_limits, plan.conditions = conditions;
+    plan.mip_limits = mip_limits, plan.conditions = conditions, plan.waits = waits, plan.signals = signals;
     return plan;
   }
 };
