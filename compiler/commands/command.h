@@ -45,7 +45,7 @@ struct ReportOptions {
 };
 struct GraphOptions {
   std::string file;
-  bool dot = false;
+  bool dot = false, html = false;
   compiler::CompileOptions compile;
 };
 struct DiffOptions {

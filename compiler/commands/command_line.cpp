@@ -90,7 +90,8 @@ void add_report(CLI::App& app, Run& run) {
 void add_graph(CLI::App& app, Run& run) {
   Subcommand<GraphOptions> command(app, run, "graph", "passes and the resources between them", show_graph);
   command->add_option("FILE", command.options->file, kRootFile)->required();
-  command->add_flag("--dot", command.options->dot, "for Graphviz");
+  auto* dot = command->add_flag("--dot", command.options->dot, "for Graphviz");
+  command->add_flag("--html", command.options->html, "a page to look at: schedule, barriers, lifetimes, memory, and the reason for everything clicked")->excludes(dot);
   add_plan_options(*command.command, command.options->compile);
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include "compiler/codegen/plan_values.h"
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 #include "compiler/commands/plan_json.h"
@@ -64,25 +63,11 @@ int emit_files(const compiler::CompileResult& result, bool shaders) {
   return exit_done;
 }
 
-// The plan with the place of every row's declaration, which the planner does not know.
-PlanData with_places(PlanData plan, const dsl::Graph& graph, const dsl::SourceFiles& sources) {
-  const auto set = [&](auto& row, dsl::Span span) {
-    const std::string place = compiler::origin(sources, span);
-    const size_t colon = place.rfind(':');
-    if (colon == std::string::npos) return;
-    row.file = intern(place.substr(0, colon));
-    row.line = static_cast<uint32_t>(std::stoul(place.substr(colon + 1)));
-  };
-  for (size_t p = 0; p < plan.passes.size(); ++p) set(plan.passes[p], graph.passes.rows[plan.program_pass[p]].span);
-  for (size_t r = 0; r < plan.resources.size(); ++r) set(plan.resources[r], graph.resources.rows[plan.program_resource[r]].span);
-  return plan;
-}
-
 int emit_json(const compiler::CompileResult& result) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const compiler::CompiledGraph& graph : result.graphs)
     for (const compiler::FramePlan& plan : graph.plans)
-      all.push_back(plan_json(with_places(plan.plan, result.program.graphs[graph.graph], result.sources)));
+      all.push_back(plan_json(result, graph, plan));
   print(all.dump(2) + "\n");
   return exit_done;
 }

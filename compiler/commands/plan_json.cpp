@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "compiler/codegen/plan_values.h"
 #include "compiler/commands/facts.h"
 
 namespace rg::commands {
@@ -304,6 +305,21 @@ Json plan_json(const PlanData& plan) {
                            return Json{{"pass", row.pass}, {"reason", row.reason}};
                          })},
           {"heap_bytes", plan.estimated_heap_bytes}};
+}
+
+Json plan_json(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
+  const dsl::Graph& declared = result.program.graphs[graph.graph];
+  PlanData placed = plan.plan;
+  const auto place = [&](auto& row, dsl::Span span) {
+    const std::string text = compiler::origin(result.sources, span);
+    const size_t colon = text.rfind(':');
+    if (colon == std::string::npos) return;
+    row.file = intern(text.substr(0, colon));
+    row.line = static_cast<uint32_t>(std::stoul(text.substr(colon + 1)));
+  };
+  for (size_t p = 0; p < placed.passes.size(); ++p) place(placed.passes[p], declared.passes.rows[placed.program_pass[p]].span);
+  for (size_t r = 0; r < placed.resources.size(); ++r) place(placed.resources[r], declared.resources.rows[placed.program_resource[r]].span);
+  return plan_json(placed);
 }
 
 }  // namespace rg::commands
