@@ -69,14 +69,13 @@ void find_used(Aliases& aliases) {
 
 // ---- releases ---------------------------------------------------------------------------------------------------
 
-Pending pending_of_release(const Release& release) {
-  Pending pending;
-  pending.stated = pending.discard = true;
-  pending.stages = expand_stages(release.stages);
+PendingOn pending_of_release(const Release& release) {
+  PendingOn on;
+  on.stages = expand_stages(release.stages);
   const AccessSet accesses = expand_accesses(release.accesses);
   for (uint32_t s = 0; s < kStageCount; ++s)
-    if (pending.stages & stage_bit(s)) pending.accesses[s] = accesses & supported(s);
-  return pending;
+    if (on.stages & stage_bit(s)) on.accesses[s] = accesses & supported(s);
+  return on;
 }
 
 void check_release(Aliases& aliases, uint32_t plan_resource) {
@@ -87,16 +86,16 @@ void check_release(Aliases& aliases, uint32_t plan_resource) {
   }
   const uint32_t r = source_of(aliases, plan_resource);
   const ResourceNode& node = aliases.model.resources[r];
-  const Pending pending = pending_of_release(*release);
+  const PendingOn on = pending_of_release(*release);
   for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
     CellState state = aliases.sync.last[aliases.model.cell(r, 0, c)];
     // What comes after waits for the release's stages; writes that are available chain from any of them.
     for (const ReadRecord& read : state.reads)
-      if (!((read.reach().stages | stage_bit(read.stage)) & with_earlier(pending.stages)))
+      if (!((read.reach().stages(read.queue) | stage_bit(read.stage)) & with_earlier(on.stages)))
         report_alias(aliases, plan_resource, "the release does not wait for reads in " + stage_name(read.stage));
     for (const WriteRecord& write : state.writes) {
-      const bool named = write.stage < kStageCount && (pending.accesses[write.stage] & access_bit(write.access));
-      const bool chained = write.available && (write.reach.stages & with_earlier(pending.stages));
+      const bool named = write.stage < kStageCount && (on.accesses[write.stage] & access_bit(write.access));
+      const bool chained = write.available && (write.reach.stages(write.queue) & with_earlier(on.stages));
       if (!named && !chained) report_alias(aliases, plan_resource, "the release does not make a write in " + stage_name(write.stage) + " available");
     }
   }
@@ -112,10 +111,10 @@ void check_release_exact(Aliases& aliases, uint32_t plan_resource) {
   AccessSet accesses = 0;
   for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
     const CellState& state = aliases.sync.last[aliases.model.cell(r, 0, c)];
-    for (const ReadRecord& read : state.reads) stages |= stage_bit(read.stage) | read.reach().stages;
+    for (const ReadRecord& read : state.reads) stages |= stage_bit(read.stage) | read.reach().stages(read.queue);
     for (const WriteRecord& write : state.writes) {
       if (write.stage < kStageCount) stages |= stage_bit(write.stage), accesses |= access_bit(write.access);
-      stages |= write.reach.stages;
+      stages |= write.reach.stages(write.queue);
     }
   }
   const std::string name(plan_of(aliases).resources[plan_resource].name);

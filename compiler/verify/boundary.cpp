@@ -5,13 +5,18 @@
 namespace rg::verify {
 namespace {
 
+void add_scope(PendingOn& on, StageSet stages, AccessSet accesses) {
+  on.stages |= stages;
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (stages & stage_bit(s)) on.accesses[s] |= accesses & supported(s);
+}
+
 void add_row(Pending& pending, const BoundaryNode& row, uint32_t aspect) {
   pending.stated = true;
   pending.discard = pending.discard || row.discard;
-  pending.stages |= row.stages;
   pending.layout = layout_of_aspect(row.layout, aspect);
-  for (uint32_t s = 0; s < kStageCount; ++s)
-    if (row.stages & stage_bit(s)) pending.accesses[s] |= row.accesses & supported(s);
+  if (row.queue != kNone && pending.owner == kNone) pending.owner = row.queue;
+  add_scope(pending.on.at(row.queue == kNone ? 0 : row.queue), row.stages, row.accesses);
 }
 
 Layout layout_of_state(dsl::Role role, uint32_t aspect) {
@@ -48,31 +53,44 @@ Layout layout_of_state(dsl::Role role, uint32_t aspect) {
 
 // Whoever waits for a pending stage waits for what comes before it in the pipeline, too.
 bool is_covered(const ReadRecord& read, const Pending& pending) {
-  return ((read.reach().stages | stage_bit(read.stage)) & with_earlier(pending.stages)) != 0;
+  bool covered = false;
+  pending.on.each([&](uint32_t queue, const PendingOn& on) {
+    const StageSet own = read.queue == queue ? stage_bit(read.stage) : 0;
+    covered = covered || ((read.reach().stages(queue) | own) & with_earlier(on.stages)) != 0;
+  });
+  return covered;
 }
 
-StageSet stages_without(const Reach& reach, StageSet stages) {
+StageSet stages_without(StageSet reach, StageSet stages) {
   StageSet result = 0;
   for (uint32_t s = 0; s < kStageCount; ++s)
-    if ((stages & stage_bit(s)) && !(reach.stages & with_earlier(stage_bit(s)))) result |= stage_bit(s);
+    if ((stages & stage_bit(s)) && !(reach & with_earlier(stage_bit(s)))) result |= stage_bit(s);
   return result;
+}
+
+bool leads_to_write(const Reach& reach, const Pending& pending) {
+  bool leads = false;
+  pending.on.each([&](uint32_t queue, const PendingOn& on) {
+    for (uint32_t s = 0; s < kStageCount; ++s)
+      if ((on.accesses[s] & kAllWrites) && (reach.stages(queue) & with_earlier(stage_bit(s)))) leads = true;
+  });
+  return leads;
 }
 
 std::string why_not_covered(const WriteRecord& write, const Pending& pending) {
   if (!write.available) {
-    const bool named = pending.accesses[write.stage] & access_bit(write.access);
+    const bool named = pending.on.get(write.queue).accesses[write.stage] & access_bit(write.access);
     return named ? "" : "its write in " + stage_name(write.stage) + " is not available and not named";
   }
-  if (pending.has_writes()) {
-    for (uint32_t s = 0; s < kStageCount; ++s)
-      if ((pending.accesses[s] & kAllWrites) && (write.reach.stages & with_earlier(stage_bit(s)))) return "";
-    return "no named write comes after its last write";
-  }
-  const StageSet unordered = stages_without(write.reach, pending.stages);
-  if (unordered != 0) return "stage " + stages_text(unordered) + " is not ordered after its last write";
-  for (uint32_t s = 0; s < kStageCount; ++s)
-    if (!pending.discard && (pending.accesses[s] & kAllReads & ~write.visible[s])) return "its last write is not visible to " + stage_name(s);
-  return "";
+  if (pending.has_writes()) return leads_to_write(write.reach, pending) ? "" : "no named write comes after its last write";
+  std::string why;
+  pending.on.each([&](uint32_t queue, const PendingOn& on) {
+    const StageSet unordered = stages_without(write.reach.stages(queue), on.stages);
+    if (unordered != 0) why = "stage " + stages_text(unordered) + " is not ordered after its last write";
+    for (uint32_t s = 0; s < kStageCount && why.empty() && !pending.discard; ++s)
+      if (on.accesses[s] & kAllReads & ~write.visible_to(queue, s)) why = "its last write is not visible to " + stage_name(s);
+  });
+  return why;
 }
 
 bool same_layout(const CellState& state, const Pending& pending) { return pending.layout == Layout::undefined || state.layout == pending.layout; }
@@ -89,12 +107,14 @@ void report_boundary(const Model& model, uint32_t resource, uint32_t cell, const
 
 void check_import(const Model& model, uint32_t r, const std::vector<Pending>& entry, Report& report) {
   const ResourceNode& node = model.resources[r];
-  History history{model, false, {}, {}};
+  History history(model);
   for (uint32_t c = 0; c < node.partition.cell_count(); ++c) {
     const Pending& given = entry[model.cell(r, 0, c)];
-    const Pending declared = pending_of(model.resource(r).before, node.partition.shape.image, aspect_of_cell(node.partition, c));
     if (!given.stated) continue;
-    const std::string why = why_not_covered(state_from(declared, history), given);
+    // The engine hands over on the queue that the plan names.
+    const uint32_t queue = given.owner == kNone ? 0 : given.owner;
+    const Pending declared = pending_of(model.resource(r).before, node.partition.shape.image, aspect_of_cell(node.partition, c), queue);
+    const std::string why = why_not_covered(state_from(declared, false, history), given);
     if (!why.empty()) report_boundary(model, r, c, "the entry state does not cover the declared `ready as` state: " + why, report);
     if (node.partition.shape.image && given.layout != declared.layout && given.layout != Layout::undefined)
       report_boundary(model, r, c, "entry layout " + layout_name(given.layout) + " is not the declared " + layout_name(declared.layout), report);
@@ -104,7 +124,16 @@ void check_import(const Model& model, uint32_t r, const std::vector<Pending>& en
 }  // namespace
 
 bool Pending::has_writes() const {
-  return std::any_of(std::begin(accesses), std::end(accesses), [](AccessSet set) { return (set & kAllWrites) != 0; });
+  bool found = false;
+  on.each([&](uint32_t, const PendingOn& queue) {
+    for (const AccessSet accesses : queue.accesses) found = found || (accesses & kAllWrites);
+  });
+  return found;
+}
+bool Pending::is_free() const {
+  bool free = true;
+  on.each([&](uint32_t, const PendingOn& queue) { free = free && queue.stages == 0; });
+  return free;
 }
 
 std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNode>& rows) {
@@ -117,7 +146,7 @@ std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNo
   return result;
 }
 
-Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect) {
+Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect, uint32_t queue) {
   dsl::Access access;
   access.role = state.role;
   access.stages = state.stages;
@@ -129,37 +158,39 @@ Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect)
   if (image) pending.layout = layout_of_state(state.role, aspect);
   std::vector<Touch> touches = is_attachment(state.role) ? touches_of_attachment(access, state.wrote ? LoadOp::none : LoadOp::load, StoreOp::none)
                                                          : touches_of(pass, access, 0);
-  for (const Touch& touch : touches) {
-    if (!touch.needed) continue;
-    pending.stages |= touch.stages;
-    for (uint32_t s = 0; s < kStageCount; ++s)
-      if (touch.stages & stage_bit(s)) pending.accesses[s] |= touch.accesses & supported(s);
-  }
+  for (const Touch& touch : touches)
+    if (touch.needed) add_scope(pending.on.at(queue), touch.stages, touch.accesses);
   return pending;
 }
 
-CellState state_from(const Pending& pending, History& history) {
-  const auto seen = static_cast<uint32_t>(history.groups.size());
+CellState state_from(const Pending& pending, bool signalled, History& history) {
+  const auto seen = static_cast<uint32_t>(history.executed.size());
   CellState state;
   state.layout = pending.layout;
-  if (pending.stages == 0) return state;
-  for (uint32_t s = 0; s < kStageCount; ++s) {
-    if (!(pending.stages & stage_bit(s))) continue;
-    state.reads.push_back(make_read(history, s, kNone, 0));
-    for (uint32_t a = 0; a < kAccessCount; ++a) {
-      if (!(pending.accesses[s] & kAllWrites & access_bit(a))) continue;
-      WriteRecord write;
-      write.stage = s, write.access = a, write.pass = kNone, write.seen = seen;
-      state.writes.push_back(std::move(write));
+  state.owner = pending.discard ? kNone : pending.owner;
+  if (pending.is_free()) return state;
+  WriteRecord settled;  // the write that the pending reads saw
+  settled.pass = kNone, settled.seen = seen;
+  settled.available = settled.read_since = true;
+  const auto make_write = [&](uint32_t queue, uint32_t stage, uint32_t access) {
+    WriteRecord write(queue);
+    write.stage = stage, write.access = access, write.pass = kNone, write.seen = seen;
+    if (signalled) write.reach.signals = {{queue, 0, {}}};
+    state.writes.push_back(std::move(write));
+  };
+  pending.on.each([&](uint32_t queue, const PendingOn& on) {
+    if (signalled && on.stages) settled.reach.signals.push_back({queue, 0, {}});
+    for (uint32_t s = 0; s < kStageCount; ++s) {
+      if (!(on.stages & stage_bit(s))) continue;
+      state.reads.push_back(make_read(history, site_of(queue, s), kNone, 0, 0));
+      if (signalled) state.reads.back().fate->reach.signals = {{queue, 0, {}}};
+      for (uint32_t a = 0; a < kAccessCount; ++a)
+        if (on.accesses[s] & kAllWrites & access_bit(a)) make_write(queue, s, a);
+      settled.reach.queues.at(queue).settled = settled.reach.queues.at(queue).stages |= stage_bit(s);
+      settled.visible.at(queue).to[s] = on.accesses[s] & kAllReads;
     }
-  }
-  if (!state.writes.empty()) return state;
-  WriteRecord write;
-  write.pass = kNone, write.seen = seen;
-  write.available = write.read_since = true;
-  write.reach.stages = write.reach.settled = pending.stages;
-  for (uint32_t s = 0; s < kStageCount; ++s) write.visible[s] = pending.accesses[s] & kAllReads;
-  state.writes.push_back(std::move(write));
+  });
+  if (state.writes.empty()) state.writes.push_back(std::move(settled));
   return state;
 }
 
@@ -175,15 +206,18 @@ std::string why_not_covered(const CellState& state, const Pending& pending) {
 }
 
 std::string why_not_visible(const CellState& state, const Pending& pending) {
+  std::string why;
   for (const WriteRecord& write : state.writes)
-    for (uint32_t s = 0; s < kStageCount; ++s)
-      if (pending.accesses[s] & kAllReads & ~write.visible[s]) return "its last write is not visible to " + stage_name(s);
-  return "";
+    pending.on.each([&](uint32_t queue, const PendingOn& on) {
+      for (uint32_t s = 0; s < kStageCount && why.empty(); ++s)
+        if (on.accesses[s] & kAllReads & ~write.visible_to(queue, s)) why = "its last write is not visible to " + stage_name(s);
+    });
+  return why;
 }
 
 void check_boundaries(const Model& model, Report& report) {
   const std::vector<Pending> entry = pending_of(model, model.entry), exit = pending_of(model, model.exit);
-  History history{model, false, {}, {}};
+  History history(model);
   for (uint32_t r = 0; r < model.resources.size(); ++r) {
     const ResourceNode& node = model.resources[r];
     const dsl::Lifetime lifetime = model.resource(r).lifetime;
@@ -200,8 +234,12 @@ void check_boundaries(const Model& model, Report& report) {
         if (left.stated != found.stated)
           report_boundary(model, r, c, left.stated ? "the entry state is missing" : "the exit state is missing", report);
         if (!left.stated || !found.stated) continue;
-        const std::string why = why_not_covered(state_from(left, history), found);
+        const std::string why = why_not_covered(state_from(left, false, history), found);
         if (!why.empty()) report_boundary(model, r, c, "the next entry does not cover the exit state: " + why, report);
+        const bool kept = model.is_exclusive(r) && !left.discard && left.owner != kNone && found.owner != kNone;
+        if (kept && model.family[left.owner] != model.family[found.owner])
+          report_boundary(model, r, c, "the next frame expects it on " + model.queue_name(found.owner) + ", but " + model.queue_name(left.owner) + " owns it",
+                          report);
       }
   }
 }

@@ -5,22 +5,27 @@
 
 namespace rg::verify {
 
+struct PendingOn {  // a queue
+  StageSet stages = 0;
+  AccessSet accesses[kStageCount] = {};  // supported ones, by stage
+};
 // The rows of a boundary that speak of one cell.
 struct Pending {
   bool stated = false, discard = false;
-  StageSet stages = 0;
-  AccessSet accesses[kStageCount] = {};  // supported ones, by stage
+  ByQueue<PendingOn> on;
   Layout layout = Layout::undefined;
+  uint32_t owner = kNone;  // queue
   bool has_writes() const;
+  bool is_free() const;  // nothing is pending
 };
 
 // By cell of the model; history copies as at frame 0.
 std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNode>& rows);
-// What an imported resource's declared state leaves pending; `stages` 0 where nothing is.
-Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect);
+// What an imported resource's declared state leaves pending on `queue`.
+Pending pending_of(const dsl::BoundaryState& state, bool image, uint32_t aspect, uint32_t queue);
 
-// A cell as it is when a frame starts in this state.
-CellState state_from(const Pending& pending, History& history);
+// A cell as it is when a frame starts in this state. `signalled`: what is pending came before the last signals of the frame before.
+CellState state_from(const Pending& pending, bool signalled, History& history);
 // Empty if every barrier sequence that is right after `pending` is right after `state`; else the reason it is not.
 std::string why_not_covered(const CellState& state, const Pending& pending);
 // Writes the state may not leave behind: what `pending` reads must see them. Empty if all are visible.

@@ -77,11 +77,12 @@ void add_resources(Model& model, std::vector<Partition> partitions) {
 }
 
 template <class Barrier>
-Scope common_scope(const Barrier& barrier, ScopeKind kind, uint32_t index, uint32_t group) {
+Scope common_scope(const Barrier& barrier, ScopeKind kind, uint32_t index, uint32_t group, uint32_t queue) {
   Scope scope;
   scope.kind = kind;
   scope.index = index;
   scope.group = group;
+  scope.queue = queue;
   scope.tag = barrier.tag;
   scope.raw_src = barrier.src_stages, scope.raw_dst = barrier.dst_stages;
   scope.raw_src_accesses = barrier.src_accesses, scope.raw_dst_accesses = barrier.dst_accesses;
@@ -108,30 +109,93 @@ void add_scope(Model& model, Scope scope) {
   model.scopes.push_back(std::move(scope));
 }
 
-void add_group(Model& model, const Extents& extents, uint32_t index) {
+// False if the barrier is not recorded: releases within one family.
+template <class Barrier>
+bool take_transfer(const Model& model, const Barrier& barrier, Scope& scope) {
+  if (barrier.src_queue == barrier.dst_queue) return true;
+  const bool release = barrier.src_queue == scope.queue;
+  scope.other = release ? barrier.dst_queue : barrier.src_queue;
+  if (model.family[barrier.src_queue] == model.family[barrier.dst_queue]) return !release;
+  scope.transfer = release ? Ownership::release : Ownership::acquire;
+  return true;
+}
+
+void add_image_scope(Model& model, uint32_t i, uint32_t group) {
+  const ImageBarrier& barrier = model.input->plan.image_barriers[i];
+  Scope scope = common_scope(barrier, ScopeKind::image, i, group, model.groups.back().queue);
+  scope.resource = model.input->program_resource[barrier.image.resource];
+  scope.age = barrier.image.age;
+  scope.cells = cells_of(model, barrier.image, barrier.range);
+  scope.old_layout = barrier.old_layout, scope.new_layout = barrier.new_layout;
+  if (take_transfer(model, barrier, scope)) add_scope(model, std::move(scope));
+}
+
+void add_buffer_scope(Model& model, const Extents& extents, uint32_t i, uint32_t group) {
+  const BufferBarrier& barrier = model.input->plan.buffer_barriers[i];
+  Scope scope = common_scope(barrier, ScopeKind::buffer, i, group, model.groups.back().queue);
+  scope.resource = model.input->program_resource[barrier.buffer.resource];
+  scope.age = barrier.buffer.age;
+  const Partition& partition = model.resources[scope.resource].partition;
+  scope.cells = cells_in(partition, box_of(model.input->plan.exprs, partition.shape, barrier.bytes, extents));
+  if (take_transfer(model, barrier, scope)) add_scope(model, std::move(scope));
+}
+
+void add_group(Model& model, const Extents& extents, uint32_t index, uint32_t queue) {
   const Plan& plan = model.input->plan;
   const BarrierGroup& group = plan.groups[index];
   model.groups.emplace_back();
+  model.groups.back().queue = queue;
+  model.groups.back().plan_group = index;
   for (uint32_t i = group.first_memory; i < group.first_memory + group.memory_count; ++i)
-    add_scope(model, common_scope(plan.memory_barriers[i], ScopeKind::memory, i, index));
-  for (uint32_t i = group.first_image; i < group.first_image + group.image_count; ++i) {
-    const ImageBarrier& barrier = plan.image_barriers[i];
-    Scope scope = common_scope(barrier, ScopeKind::image, i, index);
-    scope.resource = model.input->program_resource[barrier.image.resource];
-    scope.age = barrier.image.age;
-    scope.cells = cells_of(model, barrier.image, barrier.range);
-    scope.old_layout = barrier.old_layout, scope.new_layout = barrier.new_layout;
+    add_scope(model, common_scope(plan.memory_barriers[i], ScopeKind::memory, i, index, queue));
+  for (uint32_t i = group.first_image; i < group.first_image + group.image_count; ++i) add_image_scope(model, i, index);
+  for (uint32_t i = group.first_buffer; i < group.first_buffer + group.buffer_count; ++i) add_buffer_scope(model, extents, i, index);
+}
+
+void add_waits(Model& model, uint32_t index, const Batch& batch) {
+  model.groups.emplace_back();
+  model.groups.back().kind = GroupKind::waits;
+  model.groups.back().queue = batch.queue;
+  for (uint32_t i = batch.first_wait; i < batch.first_wait + batch.wait_count; ++i) {
+    const Wait& wait = model.input->plan.waits[i];
+    Scope scope = common_scope(MemoryBarrier{0, 0, wait.stages, 0}, ScopeKind::wait, i, index, batch.queue);
+    scope.dst_accesses = kAllReads | kAllWrites;
+    scope.other = wait.queue, scope.value = wait.value, scope.frames_ago = wait.frames_ago;
     add_scope(model, std::move(scope));
   }
-  for (uint32_t i = group.first_buffer; i < group.first_buffer + group.buffer_count; ++i) {
-    const BufferBarrier& barrier = plan.buffer_barriers[i];
-    Scope scope = common_scope(barrier, ScopeKind::buffer, i, index);
-    scope.resource = model.input->program_resource[barrier.buffer.resource];
-    scope.age = barrier.buffer.age;
-    const Partition& partition = model.resources[scope.resource].partition;
-    scope.cells = cells_in(partition, box_of(plan.exprs, partition.shape, barrier.bytes, extents));
+}
+
+void add_signals(Model& model, uint32_t index, const Batch& batch) {
+  model.groups.emplace_back();
+  model.groups.back().kind = GroupKind::signals;
+  model.groups.back().queue = batch.queue;
+  model.signals_on[batch.queue] += batch.signal_count;
+  for (uint32_t i = batch.first_signal; i < batch.first_signal + batch.signal_count; ++i) {
+    const Signal& signal = model.input->plan.signals[i];
+    Scope scope = common_scope(MemoryBarrier{signal.stages, 0, 0, 0}, ScopeKind::signal, i, index, batch.queue);
+    scope.src_accesses = kAllReads | kAllWrites;
+    scope.value = signal.value;
     add_scope(model, std::move(scope));
   }
+}
+
+void add_batch(Model& model, const Extents& extents, uint32_t index) {
+  const Plan& plan = model.input->plan;
+  const Batch& batch = plan.batches[index];
+  const auto add_step = [&](bool is_pass, size_t at) { model.steps.push_back({is_pass, static_cast<uint32_t>(at), index}); };
+  if (batch.wait_count != 0) add_waits(model, index, batch), add_step(false, model.groups.size() - 1);
+  for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
+    const Step& step = plan.steps[s];
+    if (step.kind == StepKind::barriers) {
+      add_group(model, extents, step.index, batch.queue);
+      add_step(false, model.groups.size() - 1);
+      continue;
+    }
+    model.passes[step.index].queue = batch.queue;
+    add_step(true, step.index);
+  }
+  // Ends of batches are points of their queue, with or without a signal.
+  add_signals(model, index, batch), add_step(false, model.groups.size() - 1);
 }
 
 // Memory changes hands in the group of the new owner's acquire. Images are rewritten by their transition; buffers are noted here.
@@ -145,10 +209,8 @@ void note_hand_overs(Model& model) {
     if (acquire.group != kNone && takes[acquire.resource] && plan.resources[acquire.resource].kind == ResourceKind::buffer)
       by_group[acquire.group].push_back(i);
   }
-  uint32_t next = 0;
-  for (const Batch& batch : plan.batches)
-    for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s)
-      if (plan.steps[s].kind == StepKind::barriers) model.groups[next++].handed_over = by_group[plan.steps[s].index];
+  for (GroupNode& group : model.groups)
+    if (group.plan_group != kNone) group.handed_over = by_group[group.plan_group];
 }
 
 std::vector<BoundaryNode> make_boundaries(const Model& model, const Extents& extents, std::span<const Boundary> rows) {
@@ -163,6 +225,7 @@ std::vector<BoundaryNode> make_boundaries(const Model& model, const Extents& ext
     node.stages = expand_stages(row.stages);
     node.accesses = expand_accesses(row.accesses);
     node.layout = row.layout;
+    node.queue = row.queue;
     node.discard = row.discard;
     nodes.push_back(std::move(node));
   }
@@ -333,7 +396,7 @@ void number_renderings(Model& model) {
   uint32_t next = 0;
   const PassNode* open = nullptr;
   for (const StepNode& step : model.steps) {
-    if (!step.is_pass) {
+    if (!step.is_pass) {  // every batch ends with one
       open = nullptr;
       continue;
     }
@@ -395,6 +458,11 @@ std::string Model::place(uint32_t resource_index, uint32_t cell) const {
   return "`" + resource(resource_index).name + "`" + (part.empty() ? "" : " " + part);
 }
 
+std::string Model::queue_name(uint32_t queue) const {
+  const char* kinds[] = {"graphics", "compute", "transfer"};
+  return "queue " + std::to_string(queue) + " (" + kinds[static_cast<size_t>(input->plan.queues[queue].kind)] + ")";
+}
+
 Cut make_cut(const Input& input, const std::vector<int64_t>& extents) {
   const auto& rows = input.graph.resources.rows;
   std::vector<Shape> shapes;
@@ -410,18 +478,17 @@ Cut make_cut(const Input& input, const std::vector<int64_t>& extents) {
   return cut;
 }
 
-Model make_model(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, Report& report) {
+Model make_model(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, const std::vector<uint32_t>& family,
+                 Report& report) {
   Model model;
   model.input = &input;
+  model.queue_count = static_cast<uint32_t>(input.plan.queues.size());
+  model.signals_on.assign(model.queue_count, 0);
+  model.family = family;
   add_resources(model, std::move(partitions));
   model.passes.resize(input.plan.passes.size());
   for (uint32_t i = 0; i < input.plan.passes.size(); ++i) add_pass({model, extents, report}, i);
-  for (const Batch& batch : input.plan.batches)
-    for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
-      const Step& step = input.plan.steps[s];
-      if (step.kind == StepKind::barriers) add_group(model, extents, step.index);
-      model.steps.push_back({step.kind == StepKind::pass, step.kind == StepKind::pass ? step.index : static_cast<uint32_t>(model.groups.size() - 1)});
-    }
+  for (uint32_t i = 0; i < input.plan.batches.size(); ++i) add_batch(model, extents, i);
   note_hand_overs(model);
   number_renderings(model);
   number_orders(model);

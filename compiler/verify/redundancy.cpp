@@ -21,16 +21,22 @@ std::string bit_name(const Mask& mask, uint64_t bit) {
 }
 
 std::string scope_text(const Model& model, const Scope& scope) {
-  const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier "};
+  const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier ", "wait ", "signal "};
   std::string text = kinds[static_cast<size_t>(scope.kind)] + std::to_string(scope.index);
-  if (scope.kind != ScopeKind::memory)
+  if (scope.kind == ScopeKind::wait || scope.kind == ScopeKind::signal) text += " of " + model.queue_name(scope.queue);
+  if (scope.has_range())
     text += " on " + (scope.cells.empty() ? "`" + model.resource(scope.resource).name + "`" : model.place(scope.resource, scope.cells.front()));
   return text;
 }
 
 void report_atom(const Model& model, const Scope& scope, const std::string& text, Report& report) {
-  const std::string resource = scope.kind == ScopeKind::memory ? "" : model.resource(scope.resource).name;
+  const std::string resource = scope.has_range() ? model.resource(scope.resource).name : "";
   report.add({Hazard::redundant, resource, "", "", scope_text(model, scope) + text});
+}
+
+// The last signal of a queue tells the host, and the frames of other plans, that all is done.
+bool retires_frame(const Model& model, const Scope& scope) {
+  return scope.kind == ScopeKind::signal && scope.value == model.signals_on[scope.queue];
 }
 
 }  // namespace
@@ -38,11 +44,13 @@ void report_atom(const Model& model, const Scope& scope, const std::string& text
 void check_redundancy(const Model& model, const std::vector<bool>& required, Report& report) {
   for (uint32_t id = 0; id < model.scopes.size(); ++id) {
     const Scope& scope = model.scopes[id];
-    if (scope.tag != BarrierTag::hazard) continue;
+    if (scope.tag != BarrierTag::hazard || retires_frame(model, scope)) continue;
     if (!required[atom_of(id, AtomField::whole)]) {
       report_atom(model, scope, " can be removed", report);
       continue;
     }
+    if (scope.kind == ScopeKind::wait && !required[atom_of(id, AtomField::value)])
+      report_atom(model, scope, ": it could wait for value " + std::to_string(scope.value - 1), report);
     const Mask masks[] = {{AtomField::src_stage, scope.raw_src, "source stage", true},
                           {AtomField::src_access, scope.raw_src_accesses, "source access", false},
                           {AtomField::dst_stage, scope.raw_dst, "destination stage", true},

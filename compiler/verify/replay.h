@@ -19,7 +19,7 @@ struct Replay {
   uint32_t frame = 0;
   uint32_t dispensable = kNone;  // a scope whose existence the access now checked does not need
 
-  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history{m, proofs, {}, {}} {}
+  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history(m, proofs) {}
 
   uint32_t physical(uint32_t resource, uint32_t age, uint32_t cell) const {
     const uint32_t copies = model.resources[resource].copies;
@@ -30,13 +30,20 @@ struct Replay {
     const uint32_t copies = model.resources[resource].copies;
     return model.cell(resource, (copies - age % copies) % copies, cell);
   }
-  uint32_t now() const { return static_cast<uint32_t>(history.groups.size()); }
+  uint32_t now() const { return static_cast<uint32_t>(history.executed.size()); }
   void require(const Proof& proof) {
     if (!history.proofs) return;
     for (const Atom atom : proof)
       if (dispensable == kNone || atom != atom_of(dispensable, AtomField::whole)) result.required[atom] = true;
   }
 };
+
+// Who may use a cell: the family of one queue at a time, where it is not shared.
+void check_owner(Replay& replay, uint32_t pass, uint32_t resource, uint32_t cell, CellState& state, uint32_t queue);
+// A transition without transfer that keeps contents needs the owner; one that discards makes its queue the owner.
+void check_owner_of_transition(Replay& replay, const Scope& scope, uint32_t cell, CellState& state);
+// Release and acquire must be halves of one transfer.
+void check_transfer(Replay& replay, const Scope& scope, uint32_t scope_id, uint32_t cell, CellState& state);
 
 // Words for findings.
 std::string who(const Replay& replay, const WriteRecord& write);

@@ -29,6 +29,10 @@ const char* name(Hazard hazard) {
       return "invalid barrier";
     case Hazard::boundary_mismatch:
       return "boundary mismatch";
+    case Hazard::ownership:
+      return "ownership";
+    case Hazard::submission:
+      return "submission";
     case Hazard::missing_pass:
       return "missing pass";
     case Hazard::order:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "compiler/verify/submission.h"
+
 namespace rg::verify {
 namespace {
 
@@ -52,6 +54,15 @@ void check_refs(const Input& input, Bounds& bounds) {
   for (const BufferBarrier& barrier : plan.buffer_barriers) ref(barrier.buffer, "a buffer barrier");
   for (const Boundary& boundary : plan.entry) ref(boundary.ref, "an entry state");
   for (const Boundary& boundary : plan.exit) ref(boundary.ref, "an exit state");
+  const auto queue = [&](Index q, const char* what) { bounds.expect(q == kNone || q < plan.queues.size(), std::string(what) + " names no queue"); };
+  const auto transfer = [&](const auto& barrier) {
+    queue(barrier.src_queue, "a barrier"), queue(barrier.dst_queue, "a barrier");
+    bounds.expect((barrier.src_queue == kNone) == (barrier.dst_queue == kNone), "a barrier transfers ownership from or to nobody");
+  };
+  for (const ImageBarrier& barrier : plan.image_barriers) transfer(barrier);
+  for (const BufferBarrier& barrier : plan.buffer_barriers) transfer(barrier);
+  for (const Boundary& boundary : plan.entry) queue(boundary.queue, "an entry state");
+  for (const Boundary& boundary : plan.exit) queue(boundary.queue, "an exit state");
   for (const Attachment& attachment : plan.attachments) ref(attachment.ref, "an attachment");
   for (const Access& access : plan.accesses) ref(access.ref, "an access");
   for (const Acquire& acquire : plan.acquires)
@@ -97,7 +108,6 @@ void check_steps(const Plan& plan, Bounds& bounds) {
   std::vector<uint32_t> passes(plan.passes.size()), groups(plan.groups.size());
   for (const Batch& batch : plan.batches) {
     bounds.slice(batch.first_step, batch.step_count, plan.steps.size(), "steps of a batch");
-    bounds.expect(batch.queue == 0, "batches on several queues are not modelled");
     if (!bounds.good) return;
     for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
       const Step& step = plan.steps[s];
@@ -129,9 +139,9 @@ struct Usage {
 };
 
 std::string scope_text(const Model& model, const Scope& scope) {
-  const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier "};
+  const char* kinds[] = {"memory barrier ", "image barrier ", "buffer barrier ", "wait ", "signal "};
   std::string text = kinds[static_cast<size_t>(scope.kind)] + std::to_string(scope.index);
-  if (scope.kind != ScopeKind::memory) text += " on `" + model.resource(scope.resource).name + "`";
+  if (scope.has_range()) text += " on `" + model.resource(scope.resource).name + "`";
   return text;
 }
 
@@ -153,6 +163,13 @@ void check_masks(const Usage& usage, const Scope& scope) {
   if (wide && scope.tag != BarrierTag::workaround) report_scope(usage, scope, "its masks are wider than any plan may use");
 }
 
+// VUID-VkImageMemoryBarrier2-image-04071, -srcQueueFamilyIndex-04070, -None-09053; both halves belong to the queues they name.
+void check_queues(const Usage& usage, const Scope& scope, Index src, Index dst, bool concurrent) {
+  if (src == dst) return;
+  if (concurrent) report_scope(usage, scope, "it transfers ownership of a resource that is shared");
+  if (scope.queue != src && scope.queue != dst) report_scope(usage, scope, "it transfers ownership between two queues other than its own");
+}
+
 // VUID-VkImageMemoryBarrier2-newLayout-01198, -oldLayout-012xx, -subresourceRange-014xx.
 void check_image_scope(const Usage& usage, const Scope& scope) {
   const ResourceNode& node = usage.model.resources[scope.resource];
@@ -169,14 +186,14 @@ void check_image_scope(const Usage& usage, const Scope& scope) {
   for (const Layout layout : {scope.old_layout, scope.new_layout})
     if (usage_for(layout) != 0 && allowed != 0 && !(usage_for(layout) & allowed))
       report_scope(usage, scope, "the image's usage does not allow layout " + layout_name(layout));
-  if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
+  check_queues(usage, scope, barrier.src_queue, barrier.dst_queue, image.concurrent);
 }
 
 void check_buffer_scope(const Usage& usage, const Scope& scope) {
   const BufferBarrier& barrier = usage.model.input->plan.buffer_barriers[scope.index];
   if (usage.model.resources[scope.resource].partition.shape.image) return report_scope(usage, scope, "it names an image");
   if (scope.cells.empty()) report_scope(usage, scope, "its range is empty");
-  if (barrier.src_queue != barrier.dst_queue) report_scope(usage, scope, "it transfers ownership, but one queue owns everything");
+  check_queues(usage, scope, barrier.src_queue, barrier.dst_queue, usage.model.input->plan.resources[barrier.buffer.resource].concurrent);
 }
 
 std::vector<std::string> conditions_of_plan(const Model& model, const Pass& pass) {
@@ -273,6 +290,7 @@ bool check_indices(const Input& input, Report& report) {
   if (bounds.good) check_refs(input, bounds);
   if (bounds.good) check_tables(input.plan, bounds);
   if (bounds.good) check_bytes(input.plan, bounds);
+  if (bounds.good) bounds.good = check_timelines(input.plan, report);
   if (bounds.good) check_steps(input.plan, bounds);
   if (bounds.good) check_configuration(input, bounds);
   return bounds.good;
@@ -281,7 +299,7 @@ bool check_indices(const Input& input, Report& report) {
 void check_usage(const Model& model, Report& report) {
   const Usage usage{model, report};
   for (const Scope& scope : model.scopes) {
-    check_masks(usage, scope);
+    if (scope.kind != ScopeKind::wait && scope.kind != ScopeKind::signal) check_masks(usage, scope);
     if (scope.kind == ScopeKind::image) check_image_scope(usage, scope);
     if (scope.kind == ScopeKind::buffer) check_buffer_scope(usage, scope);
   }

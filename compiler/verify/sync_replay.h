@@ -1,8 +1,8 @@
 // Replays the plan's commands on all cells: is every access ordered after, and does it see, what came before it?
 //
 // A pass that may be skipped leaves both possibilities behind, so one replay covers every outcome of the conditions.
-// The first frame starts from the plan's entry states (the invariant's premise) and must end within its exit states; further frames
-// go on from where the frame before really ended (the unrolled cross-check).
+// The first frame starts from the plan's entry states, as after any other plan, and must end within its exit states. Further frames go on from where the
+// frame before really ended, until a frame ends as the one before it did: from there on all are alike.
 #pragma once
 
 #include <vector>
@@ -17,6 +17,6 @@ struct SyncResult {
   std::vector<uint32_t> first_use, last_use;  // by program resource: positions in Model::steps; kNone: unused
 };
 
-SyncResult replay_sync(const Model& model, uint32_t frames, bool proofs, Report& report);
+SyncResult replay_sync(const Model& model, bool proofs, Report& report);
 
 }  // namespace rg::verify

@@ -1,59 +1,76 @@
-// What one cell's accesses still wait for, and what barriers have done about it.
+// What one cell's accesses still wait for, and what barriers and semaphores have done about it.
 //
-//   write ──> available ──> visible to (stage, access)            RAW and WAW need visible
+//   write ──> available ──> visible to (queue, stage, access)     RAW and WAW need visible
 //   read  ──────────────> reach: stages ordered after it          WAR needs the writer's stage in reach
 //
-// A barrier (S -> D) extends reach where S, with logically earlier stages, meets it; to D with logically later stages. It makes a
-// write available if S and its accesses name it, and visible to exactly D x its destination accesses.
+// A barrier (S -> D) extends reach where S, with logically earlier stages, meets it; to D with logically later stages, on its own queue. It makes a
+// write available if S and its accesses name it, and visible to exactly D x its destination accesses. A signal is a barrier whose second
+// scope is the semaphore, a wait one whose first scope is; both name all accesses.
 //
-// Proofs. Beside every fact stands the set of atoms (barriers, stage bits, access bits) that all its derivations use. A fact that
-// has a derivation without an atom survives its removal: sets of alternative derivations intersect, sets of joint premises unite.
-// An atom that no proof of any necessary fact contains is redundant.
+// Proofs stand beside the facts, see proof.h.
 //
-// Source of the rules: Vulkan 1.3, "Execution and Memory Dependencies", "Synchronization Scopes", "Availability, visibility".
+// Source of the rules: Vulkan 1.3, "Execution and Memory Dependencies", "Synchronization Scopes", "Availability, visibility", "Semaphores".
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "compiler/verify/by_queue.h"
 #include "compiler/verify/model.h"
+#include "compiler/verify/proof.h"
 
 namespace rg::verify {
 
-using Atom = uint32_t;
-using Proof = std::vector<Atom>;  // sorted
+using Site = uint32_t;  // a stage of a queue
+constexpr Site site_of(uint32_t queue, uint32_t stage) { return queue * kStageCount + stage; }
 
-enum class AtomField : uint8_t { whole, src_stage, src_access, dst_stage, dst_access };
-constexpr Atom atom_of(uint32_t scope, AtomField field, uint32_t bit = 0) { return (scope * 5 + static_cast<uint32_t>(field)) * 64 + bit; }
-constexpr uint32_t scope_of(Atom atom) { return atom / (5 * 64); }
-
-// Stages ordered after something.
-struct Reach {
+// Stages of one queue ordered after something.
+struct QueueReach {
   StageSet stages = 0;
-  StageSet settled = 0;                            // needs no atom beyond the root's
-  Proof root;                                      // what every proof also uses: the one barrier with which everything began
-  std::vector<std::pair<uint32_t, Proof>> proofs;  // of stages that are not settled
+  StageSet settled = 0;  // needs no atom beyond the root's
+};
+// A signal after something; so are all later ones of its queue.
+struct SignalReach {
+  uint32_t queue = 0;
+  int64_t number = 0;  // counted through all frames, see number_of
+  Proof proof;         // of all signals up to this one; contains the root's share
+};
+struct Reach {
+  ByQueue<QueueReach> queues;
+  std::vector<SignalReach> signals;            // by queue ascending numbers, each with a smaller proof than the one before
+  Proof root;                                  // what every proof also uses: the one barrier with which everything began
+  std::vector<std::pair<Site, Proof>> proofs;  // of stages that are not settled
+  explicit Reach(uint32_t queue = 0) : queues(queue) {}
+  StageSet stages(uint32_t queue) const { return queues.get(queue).stages; }
 };
 
-// Reads in one stage between the same two groups share their fate.
+// Reads in one stage between the same two groups of their queue share their fate.
 struct ReadFate {
-  uint32_t stage = 0;
-  uint32_t born = 0, seen = 0;  // groups executed before the reads, and taken into account
+  uint32_t queue = 0, stage = 0;
+  uint32_t born = 0;  // groups executed on the queue before the reads
+  uint32_t seen = 0;  // groups taken into account
   Reach reach;
 };
 struct ReadRecord {
-  uint32_t stage = 0, pass = 0;  // pass kNone: before the frame
+  uint32_t queue = 0, stage = 0;
+  uint32_t pass = 0, frame = 0;  // pass kNone: before the frame
   uint64_t order = 0;            // accesses that share a number do not wait for each other
+  bool released = false;         // a release of the resource waits for it
   std::shared_ptr<ReadFate> fate;
   const Reach& reach() const { return fate->reach; }
 };
 
 struct VisibleTo {
-  uint32_t stage = 0, access = 0;
+  Site site = 0;
+  uint32_t access = 0;
   Proof proof;
 };
+struct Visible {
+  AccessSet to[kStageCount] = {};
+};
 struct WriteRecord {
+  uint32_t queue = 0;
   uint32_t stage = kStageCount, access = kAccessCount;  // kStageCount: a layout transition, or settled before the frame
   uint32_t pass = 0;
   uint32_t scope = kNone;  // of a layout transition
@@ -61,9 +78,12 @@ struct WriteRecord {
   uint32_t seen = 0;
   bool available = false;
   bool read_since = false;  // by a pass that always runs: who waits for it comes after this write, and sees it
+  bool released = false;    // a release of the resource waits for it and makes it available
   Reach reach;              // from where it became available
-  AccessSet visible[kStageCount] = {};
+  ByQueue<Visible> visible;
   std::vector<VisibleTo> proofs;  // of visible pairs that still depend on single atoms
+  explicit WriteRecord(uint32_t on = 0) : queue(on), reach(on), visible(on) {}
+  AccessSet visible_to(uint32_t at, uint32_t to_stage) const { return visible.get(at).to[to_stage]; }
 };
 
 // What the cell would be if the last transition, which left its layout as it was, did not exist.
@@ -78,22 +98,35 @@ struct CellState {
   std::vector<WriteRecord> writes;
   Layout layout = Layout::undefined;
   uint32_t layout_scope = kNone;  // the barrier that set it
+  uint32_t owner = kNone;         // queue; kNone: whoever comes first
+  uint32_t released_by = kNone;   // a release whose acquire has not come
+  std::vector<uint32_t> owner_scopes;  // release and acquire that made `owner` the owner
   Without without;                // only where proofs are kept, until the next write
 };
 
-// The barriers executed so far. `proofs` off keeps only the facts.
+struct Executed {
+  uint32_t group = 0, frame = 0;  // of Model::groups
+};
+// The barriers, signals and waits executed so far. `proofs` off keeps only the facts.
 struct History {
   const Model& model;
   bool proofs = false;
-  std::vector<uint32_t> groups;  // in execution order, indices of Model::groups
-  std::shared_ptr<ReadFate> newest[kStageCount];
+  std::vector<Executed> executed;
+  std::vector<uint32_t> executed_on;              // by queue: how many
+  std::vector<std::shared_ptr<ReadFate>> newest;  // by site
+  explicit History(const Model& m, bool with_proofs = false);
 };
-ReadRecord make_read(History& history, uint32_t stage, uint32_t pass, uint64_t order);
+ReadRecord make_read(History& history, Site site, uint32_t pass, uint32_t frame, uint64_t order);
 // As it is now, whatever comes.
 CellState frozen(const CellState& state);
 
+// Counted through all frames: the signals of a frame come after those of the frame before; number 0 is the last one before frame 0.
+int64_t number_of(const Model& model, const Scope& signal, uint32_t frame);
+
 // Takes all groups in `history` into account that came since the state was last looked at, without effects that are local to ranges.
 void advance(const History& history, CellState& state);
+void advance(const History& history, ReadFate& fate);
+void advance(const History& history, WriteRecord& write);
 
 // Applies one group to the writes of a cell on which it has local effects through `local` scopes (no transitions among them), before it is
 // part of the history. Everything before must have been taken into account.
@@ -107,8 +140,7 @@ bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, 
 WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id);
 
 // Of facts that hold.
-Proof proof_of_reach(const ReadRecord& read, uint32_t stage);
-Proof proof_of_reach(const WriteRecord& write, uint32_t stage);
-Proof proof_of_visible(const WriteRecord& write, uint32_t stage, uint32_t access);
+Proof proof_of_reach(const Reach& reach, Site site);
+Proof proof_of_visible(const WriteRecord& write, Site site, uint32_t access);
 
 }  // namespace rg::verify

@@ -1,5 +1,6 @@
 #include "compiler/verify/verify.h"
 
+#include <algorithm>
 #include <set>
 
 #include "compiler/verify/alias.h"
@@ -9,18 +10,51 @@
 #include "compiler/verify/redundancy.h"
 #include "compiler/verify/report.h"
 #include "compiler/verify/structure.h"
+#include "compiler/verify/submission.h"
 #include "compiler/verify/sync_replay.h"
 #include "compiler/verify/work.h"
 
 namespace rg::verify {
 namespace {
 
+using Families = std::vector<uint32_t>;  // by queue
+
+// One family a kind of queue.
+Families families_of(const Plan& plan) {
+  Families families;
+  for (const Queue& queue : plan.queues) families.push_back(static_cast<uint32_t>(queue.kind));
+  return families;
+}
+
+bool has_transfers(const Plan& plan) {
+  const auto transfers = [](const auto& barrier) { return barrier.src_queue != barrier.dst_queue; };
+  return std::any_of(plan.image_barriers.begin(), plan.image_barriers.end(), transfers) ||
+         std::any_of(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), transfers);
+}
+
+// On devices where kinds of queues share a family transfers are not recorded: two kinds, or all.
+void prove_united(const Input& input, const std::vector<int64_t>& extents, const std::vector<Partition>& partitions, Report& report) {
+  if (!has_transfers(input.plan)) return;
+  const Families apart = families_of(input.plan);
+  std::set<Families> proved{apart};
+  for (uint32_t a = 0; a < 3; ++a)
+    for (uint32_t b = 0; b <= 3; ++b) {
+      Families united = apart;
+      for (uint32_t& family : united)
+        if (b == 3 || family == b) family = a;
+      if (report.full() || !proved.insert(united).second) continue;
+      replay_sync(make_model(input, extents, partitions, united, report), false, report);
+    }
+}
+
 void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, const VerifyOptions& options, Report& report) {
-  const Model model = make_model(input, extents, std::move(partitions), report);
+  const Model model = make_model(input, extents, partitions, families_of(input.plan), report);
   check_usage(model, report);
+  check_submission(model, report);
   check_work(model, extents, report);
   check_boundaries(model, report);
-  const SyncResult sync = replay_sync(model, model.history + 2, options.irredundancy, report);
+  const SyncResult sync = replay_sync(model, options.irredundancy, report);
+  prove_united(input, extents, partitions, report);
   check_aliases(model, sync, report);
   replay_contents(model, extents, report);
   // Redundancy of a plan that is wrong means nothing.

@@ -22,6 +22,8 @@ enum class Hazard : uint8_t {
   alias_race,
   invalid_barrier,
   boundary_mismatch,
+  ownership,   // of a queue family
+  submission,  // queues, batches, waits and signals
   missing_pass,
   order,
   invalid_plan,

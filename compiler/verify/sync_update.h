@@ -1,0 +1,58 @@
+// New facts on a record, gathered while all barriers of a group see the state before the group, then merged. Private to sync_state.h.
+#pragma once
+
+#include <vector>
+
+#include "compiler/verify/sync_state.h"
+
+namespace rg::verify {
+
+struct NewReach {
+  uint32_t stage = 0;
+  Proof proof;
+};
+struct NewVisible {
+  uint32_t stage = 0, access = 0;
+  Proof proof;
+};
+struct Updates {  // on `queue`
+  uint32_t queue = 0;
+  StageSet reach = 0;
+  Visible visible;
+  bool available = false;
+  std::vector<NewReach> new_reach;
+  std::vector<NewVisible> new_visible;
+};
+
+// The atom of the one bit of `raw` that stands for the stage or access; empty if none or several do.
+Proof stage_atom(uint32_t scope, AtomField field, Stages raw, uint32_t stage);
+Proof access_atom(uint32_t scope, AtomField field, Accesses raw, uint32_t access);
+
+// The source stages of `scope` that meet `stage`, as alternatives on top of `premise`.
+void add_meeting_sources(const Scope& scope, uint32_t scope_id, uint32_t stage, const Proof& premise, Alternatives& result);
+// Those that meet what already comes after the record; proofs without the root.
+void add_chained_sources(const Scope& scope, uint32_t scope_id, const Reach& reach, Alternatives& result);
+// The second scope of `scope` after `source`.
+void add_reach(const Scope& scope, uint32_t scope_id, const Proof& source, StageSet settled, std::vector<NewReach>& result);
+void add_visible(const Scope& scope, uint32_t scope_id, const Proof& source, std::vector<NewVisible>& result);
+
+bool makes_available(const Scope& scope, const WriteRecord& write);
+Proof availability_proof(const Scope& scope, uint32_t scope_id, const WriteRecord& write);
+// The memory dependency of a scope that covers the cell. `source`: how the write comes before it.
+void see(const History& history, uint32_t scope_id, const WriteRecord& write, const Alternatives& source, Updates& updates);
+
+void commit(const History& history, const Updates& updates, Reach& reach);
+void commit(const History& history, const Updates& updates, WriteRecord& write);
+
+// Proofs no longer share a root: there is a second beginning.
+void forget_root(Reach& reach);
+void forget_root(WriteRecord& write);
+// At the beginning all proofs go through the one barrier: what they have in common stays in all that follow.
+void grow_root(Reach& reach);
+void grow_root(WriteRecord& write);
+
+// A signal or wait, see semaphores.cpp.
+void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate);
+void apply_semaphores(const History& history, const Executed& executed, WriteRecord& write);
+
+}  // namespace rg::verify
