@@ -11,6 +11,7 @@ namespace {
 
 struct Hand {  // of one plan resource
   const Release* release = nullptr;
+  std::vector<const Release*> releases;
   const Acquire* acquire = nullptr;
   uint32_t acquire_step = kNone;
   bool gives = false, takes = false;
@@ -28,6 +29,8 @@ struct Aliases {
 
 const Plan& plan_of(const Aliases& aliases) { return aliases.model.input->plan; }
 uint32_t source_of(const Aliases& aliases, uint32_t plan_resource) { return aliases.model.input->program_resource[plan_resource]; }
+
+bool uses_clocks(const Plan& plan) { return !plan.alias_clocks.empty(); }
 
 void report_alias(Aliases& aliases, uint32_t plan_resource, const std::string& text) {
   const std::string name(plan_of(aliases).resources[plan_resource].name);
@@ -47,11 +50,18 @@ void find_steps(Aliases& aliases) {
 void find_hands(Aliases& aliases) {
   const Plan& plan = plan_of(aliases);
   aliases.hands.resize(plan.resources.size());
-  for (const Release& release : plan.releases) aliases.hands[release.resource].release = &release;
+  for (const Release& release : plan.releases) {
+    aliases.hands[release.resource].release = &release;
+    aliases.hands[release.resource].releases.push_back(&release);
+  }
   for (const Acquire& acquire : plan.acquires) {
     Hand& hand = aliases.hands[acquire.resource];
     hand.acquire = &acquire;
     hand.acquire_step = acquire.group == kNone ? kNone : aliases.step_of_group[acquire.group];
+  }
+  if (uses_clocks(plan)) {
+    const std::vector<bool> shares = may_share(plan);
+    for (uint32_t r = 0; r < aliases.hands.size(); ++r) aliases.hands[r].takes = shares[r];
   }
   for (const AliasPair& pair : plan.alias_pairs) {
     aliases.pairs.emplace(pair.before, pair.after, pair.wraps);
@@ -169,7 +179,22 @@ void check_pair(Aliases& aliases, const AliasPair& pair) {
     report_alias(aliases, pair.before, "`" + std::string(plan_of(aliases).resources[pair.after].name) + "` may take it over before its last use");
 }
 
+// The last users of `before` are over when `after` is acquired, in the same frame or in the next one.
+bool is_over(const Aliases& aliases, uint32_t before, uint32_t after, bool next_frame) {
+  const Plan& plan = plan_of(aliases);
+  const Hand& taker = aliases.hands[after];
+  const size_t clocks = taker.acquire->first_clock + (next_frame ? plan.queues.size() : 0);
+  const auto& releases = aliases.hands[before].releases;
+  return std::all_of(releases.begin(), releases.end(), [&](const Release* release) {
+    const Index clock = plan.alias_clocks[clocks + release->queue];
+    return clock != kNone && clock >= release->point;
+  });
+}
+
 bool pair_allowed(const Aliases& aliases, uint32_t a, uint32_t b) {
+  if (uses_clocks(plan_of(aliases)))
+    return aliases.hands[a].takes && aliases.hands[b].takes &&
+           ((is_over(aliases, a, b, false) && is_over(aliases, b, a, true)) || (is_over(aliases, b, a, false) && is_over(aliases, a, b, true)));
   const auto has = [&](uint32_t before, uint32_t after, bool wraps) { return aliases.pairs.contains({before, after, wraps}); };
   return (has(a, b, false) && has(b, a, true)) || (has(b, a, false) && has(a, b, true));
 }
@@ -191,7 +216,7 @@ void check_places(Aliases& aliases) {
       report_alias(aliases, order[i], "its estimated offset is not aligned");
     for (size_t j = i + 1; j < order.size() && plan.resources[order[j]].estimated_offset < first.estimated_offset + first.estimated_bytes; ++j)
       if (!pair_allowed(aliases, order[i], order[j]))
-        report_alias(aliases, order[i], "it shares bytes with `" + std::string(plan.resources[order[j]].name) + "`, which no pair allows");
+        report_alias(aliases, order[i], "it shares bytes with `" + std::string(plan.resources[order[j]].name) + "`, which nothing allows");
   }
 }
 
@@ -208,6 +233,14 @@ Aliases make_aliases(const Model& model, const SyncResult& sync, Report& report)
 }
 
 }  // namespace
+
+std::vector<bool> may_share(const Plan& plan) {
+  std::vector<bool> released(plan.resources.size()), shares(plan.resources.size());
+  for (const Release& release : plan.releases) released[release.resource] = true;
+  for (const Acquire& acquire : plan.acquires)
+    shares[acquire.resource] = acquire.first_clock != kNone && released[acquire.resource] && !plan.resources[acquire.resource].no_alias;
+  return shares;
+}
 
 void check_release_redundancy(const Model& model, const SyncResult& sync, Report& report) {
   Aliases aliases = make_aliases(model, sync, report);

@@ -11,12 +11,14 @@ void add_scope(PendingOn& on, StageSet stages, AccessSet accesses) {
     if (stages & stage_bit(s)) on.accesses[s] |= accesses & supported(s);
 }
 
-void add_row(Pending& pending, const BoundaryNode& row, uint32_t aspect) {
+void add_row(const Model& model, Pending& pending, const BoundaryNode& row, uint32_t aspect) {
   pending.stated = true;
   pending.discard = pending.discard || row.discard;
   pending.layout = layout_of_aspect(row.layout, aspect);
-  if (row.queue != kNone && pending.owner == kNone) pending.owner = row.queue;
-  add_scope(pending.on.at(row.queue == kNone ? 0 : row.queue), row.stages, row.accesses);
+  const uint32_t queue = row.queue == kNone ? 0 : row.queue;
+  if (row.queue != kNone && pending.owner == kNone && !pending.disagrees) pending.owner = row.queue;
+  if (pending.owner != kNone && model.family[pending.owner] != model.family[queue]) pending.owner = kNone, pending.disagrees = true;
+  add_scope(pending.on.at(queue), row.stages, row.accesses);
 }
 
 Layout layout_of_state(dsl::Role role, uint32_t aspect) {
@@ -78,10 +80,9 @@ bool leads_to_write(const Reach& reach, const Pending& pending) {
 }
 
 std::string why_not_covered(const WriteRecord& write, const Pending& pending) {
-  if (!write.available) {
-    const bool named = pending.on.get(write.queue).accesses[write.stage] & access_bit(write.access);
-    return named ? "" : "its write in " + stage_name(write.stage) + " is not available and not named";
-  }
+  // A signal may have made it available; who waits for the named write does so, too.
+  if (write.stage < kStageCount && (pending.on.get(write.queue).accesses[write.stage] & access_bit(write.access))) return "";
+  if (!write.available) return "its write in " + stage_name(write.stage) + " is not available and not named";
   if (pending.has_writes()) return leads_to_write(write.reach, pending) ? "" : "no named write comes after its last write";
   std::string why;
   pending.on.each([&](uint32_t queue, const PendingOn& on) {
@@ -141,7 +142,7 @@ std::vector<Pending> pending_of(const Model& model, const std::vector<BoundaryNo
   for (const BoundaryNode& row : rows) {
     const ResourceNode& node = model.resources[row.resource];
     const uint32_t copy = (node.copies - row.age % node.copies) % node.copies;
-    for (const uint32_t c : row.cells) add_row(result[model.cell(row.resource, copy, c)], row, aspect_of_cell(node.partition, c));
+    for (const uint32_t c : row.cells) add_row(model, result[model.cell(row.resource, copy, c)], row, aspect_of_cell(node.partition, c));
   }
   return result;
 }
@@ -236,6 +237,8 @@ void check_boundaries(const Model& model, Report& report) {
         if (!left.stated || !found.stated) continue;
         const std::string why = why_not_covered(state_from(left, false, history), found);
         if (!why.empty()) report_boundary(model, r, c, "the next entry does not cover the exit state: " + why, report);
+        if (model.is_exclusive(r) && !left.discard && (left.disagrees || found.disagrees))
+          report_boundary(model, r, c, "its rows name queues of different families, but one owns it", report);
         const bool kept = model.is_exclusive(r) && !left.discard && left.owner != kNone && found.owner != kNone;
         if (kept && model.family[left.owner] != model.family[found.owner])
           report_boundary(model, r, c, "the next frame expects it on " + model.queue_name(found.owner) + ", but " + model.queue_name(left.owner) + " owns it",

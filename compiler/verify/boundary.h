@@ -14,7 +14,8 @@ struct Pending {
   bool stated = false, discard = false;
   ByQueue<PendingOn> on;
   Layout layout = Layout::undefined;
-  uint32_t owner = kNone;  // queue
+  uint32_t owner = kNone;  // queue; kNone: not said
+  bool disagrees = false;  // rows name queues of different families: they say nothing of the owner
   bool has_writes() const;
   bool is_free() const;  // nothing is pending
 };

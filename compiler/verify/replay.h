@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/verify/boundary.h"
+#include "compiler/verify/release_track.h"
 #include "compiler/verify/sync_replay.h"
 
 namespace rg::verify {
@@ -16,10 +17,11 @@ struct Replay {
   std::vector<CellState> cells;
   SyncResult result;
   std::vector<bool> used;  // by cell of copy 0
+  ReleaseTrack releases;
   uint32_t frame = 0;
   uint32_t dispensable = kNone;  // a scope whose existence the access now checked does not need
 
-  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history(m, proofs) {}
+  Replay(const Model& m, Report& r, bool proofs) : model(m), report(r), history(m, proofs), releases(make_release_track(m)) {}
 
   uint32_t physical(uint32_t resource, uint32_t age, uint32_t cell) const {
     const uint32_t copies = model.resources[resource].copies;

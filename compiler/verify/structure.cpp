@@ -68,7 +68,12 @@ void check_refs(const Input& input, Bounds& bounds) {
   for (const Acquire& acquire : plan.acquires)
     bounds.expect(acquire.resource < plan.resources.size() && (acquire.group == kNone || acquire.group < plan.groups.size()),
                   "an acquire names no resource or group");
-  for (const Release& release : plan.releases) bounds.expect(release.resource < plan.resources.size(), "a release names no resource");
+  for (const Acquire& acquire : plan.acquires)
+    bounds.expect(acquire.first_clock == kNone || (acquire.queue < plan.queues.size() && acquire.group != kNone &&
+                                                   uint64_t{acquire.first_clock} + 2 * plan.queues.size() <= plan.alias_clocks.size()),
+                  "an acquire has no clock");
+  for (const Release& release : plan.releases)
+    bounds.expect(release.resource < plan.resources.size() && release.queue < plan.queues.size(), "a release names no resource or queue");
   for (const AliasPair& pair : plan.alias_pairs)
     bounds.expect(pair.before < plan.resources.size() && pair.after < plan.resources.size() && pair.before != pair.after,
                   "an alias pair names no two resources");

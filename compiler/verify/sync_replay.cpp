@@ -320,6 +320,7 @@ void hand_over(Replay& replay, const Acquire& acquire, uint32_t queue) {
 
 void run_group(Replay& replay, uint32_t index) {
   const GroupNode& group = replay.model.groups[index];
+  pass_point(replay, replay.releases, group);
   struct Local {
     uint32_t cell = 0;
     std::vector<uint32_t> scopes;
@@ -430,7 +431,9 @@ SyncResult replay_sync(const Model& model, bool proofs, Report& report) {
   const uint32_t least = model.history + 2, most = least + 8;
   for (; replay.frame < most && !report.full(); ++replay.frame) {
     enter(replay, entry);
+    begin_frame(replay, replay.releases);
     run_frame(replay);
+    end_frame(replay, replay.releases);
     leave(replay, exit);
     before = std::move(now), now = end_of_frame(replay);
     if (replay.frame + 1 >= least && before == now) return std::move(replay.result);

@@ -73,6 +73,7 @@ dsl::Access declare(const Do& use, const std::string& name) {
 Plan PlanTables::view() const {
   Plan plan;
   plan.exprs = exprs, plan.resources = resources, plan.queues = queues, plan.batches = batches, plan.steps = steps, plan.groups = groups;
+  plan.waits = waits, plan.signals = signals, plan.alias_clocks = alias_clocks;
   plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
   plan.entry = entry, plan.exit = exit, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs;
   plan.passes = passes, plan.accesses = accesses, plan.renderings = renderings, plan.attachments = attachments, plan.transfers = transfers,
@@ -169,6 +170,7 @@ dsl::PassId Builder::pass(dsl::PassKind kind, const std::string& name, const std
   dsl::Pass row;
   row.name = name;
   row.kind = kind;
+  if (!plan.batches.empty()) row.queue = static_cast<dsl::QueueKind>(plan.queues[plan.batches.back().queue].kind);
   Pass planned_pass;
   names.push_back(name);
   planned_pass.name = names.back();
@@ -221,8 +223,68 @@ void Builder::condition(dsl::PassId pass, const std::string& name) {
     if (plan.program_pass[p] == pass.value) plan.passes[p].guard |= uint64_t{1} << (plan.conditions.size() - 1);
 }
 
+Index Builder::queue(QueueKind kind) {
+  plan.queues.push_back({kind});
+  return static_cast<Index>(plan.queues.size() - 1);
+}
+
+// Where nothing is said of a resource's end, it may end on any queue.
+void Builder::end_anywhere() {
+  std::vector<Boundary> more;
+  if (plan.queues.size() == 1) return;
+  for (Boundary& row : plan.exit)
+    if (row.queue == kNone) row.queue = 0;
+  for (Boundary row : plan.exit)
+    for (row.queue = 1; row.stages == kEveryStage && row.queue < plan.queues.size(); ++row.queue) more.push_back(row);
+  plan.exit.insert(plan.exit.end(), more.begin(), more.end());
+}
+
+void Builder::batch(Index queue) {
+  close_batch();
+  plan.batches.push_back({queue, static_cast<Index>(plan.steps.size()), 0, static_cast<Index>(plan.waits.size()), 0,
+                          static_cast<Index>(plan.signals.size()), 0});
+}
+
+void Builder::close_batch() {
+  if (plan.batches.empty()) return;
+  plan.batches.back().step_count = static_cast<Index>(plan.steps.size()) - plan.batches.back().first_step;
+}
+
+void Builder::wait(Index queue, uint64_t value, Stages stages, uint32_t frames_ago) {
+  plan.waits.push_back({queue, value, stages, frames_ago});
+  ++plan.batches.back().wait_count;
+}
+
+void Builder::signal(Stages stages) {
+  uint64_t value = 1;
+  for (const Batch& batch : plan.batches)
+    if (batch.queue == plan.batches.back().queue) value += batch.signal_count;
+  plan.signals.push_back({value, stages});
+  ++plan.batches.back().signal_count;
+}
+
+void Builder::give(dsl::ResourceId id, Index to, Layout from_layout, Layout to_layout, Stages s, Accesses sa, Stages d) {
+  transfer_barrier(id, plan.batches.back().queue, to, from_layout, to_layout, {s, sa, d, 0});
+}
+
+void Builder::take(dsl::ResourceId id, Index from, Layout from_layout, Layout to_layout, Stages s, Stages d, Accesses da) {
+  transfer_barrier(id, from, plan.batches.back().queue, from_layout, to_layout, {s, 0, d, da});
+}
+
+void Builder::transfer_barrier(dsl::ResourceId id, Index from, Index to, Layout from_layout, Layout to_layout, const MemoryBarrier& m) {
+  if (source(id).kind == dsl::ResourceKind::image) {
+    image_barrier(id, from_layout, to_layout, m.src_stages, m.src_accesses, m.dst_stages, m.dst_accesses);
+    plan.image_barriers.back().src_queue = from, plan.image_barriers.back().dst_queue = to;
+    return;
+  }
+  buffer_barrier(id, m.src_stages, m.src_accesses, m.dst_stages, m.dst_accesses);
+  plan.buffer_barriers.back().src_queue = from, plan.buffer_barriers.back().dst_queue = to;
+}
+
 Plan Builder::view() {
-  plan.batches = {{0, 0, static_cast<Index>(plan.steps.size())}};
+  if (plan.batches.empty()) plan.batches = {{}};
+  close_batch();
+  end_anywhere();
   return plan.view();
 }
 

@@ -19,6 +19,8 @@ struct PlanTables {
   std::vector<Queue> queues{{}};
   std::vector<Batch> batches;
   std::vector<Step> steps;
+  std::vector<Wait> waits;
+  std::vector<Signal> signals;
   std::vector<BarrierGroup> groups;
   std::vector<MemoryBarrier> memory_barriers;
   std::vector<ImageBarrier> image_barriers;
@@ -27,6 +29,7 @@ struct PlanTables {
   std::vector<Acquire> acquires;
   std::vector<Release> releases;
   std::vector<AliasPair> alias_pairs;
+  std::vector<Index> alias_clocks;
   std::vector<Pass> passes;
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;
@@ -110,6 +113,15 @@ struct Builder {
   void merge_rendering();
   void condition(dsl::PassId pass, const std::string& name);
 
+  // Without these calls there is one batch on queue 0. Passes are permitted on the queue of the batch they are in.
+  Index queue(QueueKind kind);
+  void batch(Index queue);
+  void wait(Index queue, uint64_t value, Stages stages, uint32_t frames_ago = 0);  // before anything is recorded in the batch
+  void signal(Stages stages);                                                      // the next value of the batch's queue, after all is recorded
+  // Halves of a transfer from the queue of the batch `give` is in to that of `take`; the range is the whole image or buffer.
+  void give(dsl::ResourceId id, Index to, Layout from_layout, Layout to_layout, Stages s, Accesses sa, Stages d);
+  void take(dsl::ResourceId id, Index from, Layout from_layout, Layout to_layout, Stages s, Stages d, Accesses da);
+
   // A barrier alone in its group; the group of the last call where `join`.
   void memory(Stages s, Accesses sa, Stages d, Accesses da, bool join = false);
   void image_barrier(dsl::ResourceId id, Layout from, Layout to, Stages s, Accesses sa, Stages d, Accesses da, Range range = {}, bool join = false);
@@ -124,6 +136,9 @@ struct Builder {
   std::vector<std::string> hazards(bool irredundancy = false);  // names of the kinds found, sorted, each once
 
  private:
+  void close_batch();
+  void end_anywhere();
+  void transfer_barrier(dsl::ResourceId id, Index from, Index to, Layout from_layout, Layout to_layout, const MemoryBarrier& masks);
   BarrierGroup& open_group(bool join);
 };
 

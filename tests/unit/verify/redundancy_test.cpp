@@ -132,5 +132,96 @@ TEST(Redundancy, ReaderThatMayBeSkippedOrdersNothing) {
   }
 }
 
+// ---- several queues ---------------------------------------------------------------------------------------------
+
+constexpr Stages kAll = stage::all_commands;
+
+dsl::ResourceId shared(Builder& b, const std::string& name) {
+  const auto id = b.buffer(name);
+  b.planned(id).concurrent = true;
+  return id;
+}
+
+// `w` on queue 1, `r` on queue 0 after it.
+void write_then_read(Builder& b, Stages signal, Stages wait) {
+  const Index compute = b.queue(QueueKind::compute);
+  const auto x = shared(b, "x");
+  b.batch(compute);
+  b.compute("w", {writes(x)});
+  b.signal(signal);
+  b.batch(compute);
+  b.signal(kAll);
+  b.batch(0);
+  b.wait(compute, 1, wait);
+  b.compute("r", {reads(x)});
+  b.signal(kAll);
+}
+
+TEST(Redundancy, ExactSemaphoreIsNeeded) {
+  Builder b;
+  write_then_read(b, kCs, kCs);
+  EXPECT_EQ(redundant(b), Texts{});
+}
+
+TEST(Redundancy, BitsOfSemaphores) {
+  Builder b;
+  write_then_read(b, kCs | st::copy, kCs | st::copy);
+  EXPECT_EQ(redundant(b), (Texts{"signal 0 of queue 1 (compute): source stage copy can be removed",
+                                 "wait 0 of queue 0 (graphics): destination stage copy can be removed"}));
+}
+
+TEST(Redundancy, WaitForMoreThanNeeded) {
+  Builder b;
+  write_then_read(b, kCs, kCs);
+  b.plan.waits[0].value = 2;
+  EXPECT_EQ(redundant(b), (Texts{"signal 0 of queue 1 (compute) can be removed", "wait 0 of queue 0 (graphics): it could wait for value 1"}));
+}
+
+TEST(Redundancy, WaitThatNothingNeeds) {
+  Builder b;
+  const Index compute = b.queue(QueueKind::compute);
+  const auto x = shared(b, "x"), y = shared(b, "y");
+  b.batch(compute);
+  b.compute("w", {writes(x)});
+  b.signal(kAll);
+  b.batch(0);
+  b.wait(compute, 1, kCs);
+  b.compute("v", {writes(y)});
+  b.signal(kAll);
+  EXPECT_EQ(redundant(b), Texts{"wait 0 of queue 0 (graphics) can be removed"});
+}
+
+// Queue 0 waits for queue 2, which has waited for queue 1.
+TEST(Redundancy, WaitImpliedByAnother) {
+  Builder b;
+  const Index compute = b.queue(QueueKind::compute), third = b.queue(QueueKind::compute);
+  const auto x = shared(b, "x"), y = shared(b, "y");
+  b.batch(compute);
+  b.compute("w", {writes(x)});
+  b.signal(kCs);
+  b.batch(third);
+  b.wait(compute, 1, kCs);
+  b.compute("v", {reads(x), writes(y)});
+  b.signal(kCs);
+  b.batch(0);
+  b.wait(compute, 1, kCs);
+  b.wait(third, 1, kCs);
+  b.compute("r", {reads(x), reads(y)});
+  b.signal(kAll);
+  EXPECT_EQ(redundant(b), Texts{"wait 1 of queue 0 (graphics) can be removed"});
+}
+
+TEST(Redundancy, SecondWaitOfOneQueue) {
+  Builder b;
+  write_then_read(b, kCs, kCs);
+  const auto y = shared(b, "y");
+  b.plan.signals.back().stages = kCs;
+  b.batch(0);
+  b.wait(1, 1, kCs);
+  b.compute("v", {reads(dsl::ResourceId{size_t{0}}), writes(y)});
+  b.signal(kAll);
+  EXPECT_EQ(redundant(b), (Texts{"signal 2 of queue 0 (graphics) can be removed", "wait 1 of queue 0 (graphics) can be removed"}));
+}
+
 }  // namespace
 }  // namespace rg::verify
