@@ -12,18 +12,18 @@ struct Scopes {  // of one barrier, completed: the first with logically earlier 
 };
 Scopes scopes_of(const CellBarrier& b) { return {with_earlier(b.src_stages), with_later(b.dst_stages)}; }
 
-// How execution scopes chain over the groups of a frame: a stage is reached where its later commands come after the event. What happened in the frame
+// How execution scopes chain over the groups of one queue: a stage is reached where its later commands come after the event. What happened in the frame
 // before counts from the start of this one: the boundary state promises no more.
 class Chains {
  public:
-  explicit Chains(const SyncPlan& sync) : sync_(sync), distinct_(sync.groups.size()) {
-    for (uint32_t g = 0; g < sync.groups.size(); ++g) refresh(g);
+  explicit Chains(const std::vector<std::vector<CellBarrier>*>& groups) : groups_(groups), distinct_(groups.size()) {
+    for (uint32_t g = 0; g < groups.size(); ++g) refresh(g);
   }
 
   // After barriers of the group were dropped or narrowed.
   void refresh(uint32_t group) {
     distinct_[group].clear();
-    for (const CellBarrier& b : sync_.groups[group]) {
+    for (const CellBarrier& b : *groups_[group]) {
       const Scopes scopes = scopes_of(b);
       if (std::find(distinct_[group].begin(), distinct_[group].end(), scopes) == distinct_[group].end()) distinct_[group].push_back(scopes);
     }
@@ -41,7 +41,7 @@ class Chains {
   }
 
  private:
-  const SyncPlan& sync_;
+  const std::vector<std::vector<CellBarrier>*>& groups_;
   std::vector<std::vector<Scopes>> distinct_;  // by group
 };
 
@@ -61,44 +61,47 @@ bool holds(const Chains& chains, const Claim& claim) {
   return false;
 }
 
-// What must hold for the barrier's sources, if the barrier is gone (`src` 0) or waits for `src` only. Barriers of its own group help where execution
-// alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
-std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages src) {
-  std::vector<Claim> claims;
-  const bool transition = b.old_layout != b.new_layout;
-  for (const Event& event : b.sources) {
-    const uint32_t first = event.earlier_frame ? 0 : event.segment + 1;
-    for (Stages rest = event.stages; rest; rest &= rest - 1) {
-      const Stages stage = rest & ~(rest - 1);
-      if (transition)
-        claims.push_back({stage, first, group, with_earlier(src), false});
-      else
-        claims.push_back({stage, first, b.first_use + 1, b.dst_stages, true});
-    }
-  }
-  return claims;
-}
+bool execution_only(const CellBarrier& b) { return !b.foreign && b.src_accesses == 0 && b.dst_accesses == 0 && b.old_layout == b.new_layout; }
 
-bool execution_only(const CellBarrier& b) { return b.src_accesses == 0 && b.dst_accesses == 0 && b.old_layout == b.new_layout; }
-
+// Works on one queue: barriers of others order nothing here, and those that go on after a wait stay as they are.
 class Dropper {
  public:
-  explicit Dropper(SyncPlan& sync) : sync_(sync), chains_(sync) {}
+  Dropper(std::vector<std::vector<CellBarrier>*> groups, const std::vector<uint32_t>& group_of_slot, const Schedule& schedule)
+      : groups_(std::move(groups)), group_of_slot_(group_of_slot), schedule_(schedule), chains_(groups_) {}
 
   void run() {
-    for (uint32_t g = 0; g < sync_.groups.size(); ++g) {
-      for (CellBarrier& b : sync_.groups[g])
+    for (uint32_t g = 0; g < groups_.size(); ++g) {
+      for (CellBarrier& b : *groups_[g])
         if (execution_only(b) && !b.sources.empty()) narrow(b, g, 0);
-      std::erase_if(sync_.groups[g], [](const CellBarrier& b) { return execution_only(b) && b.src_stages == 0; });
-      for (CellBarrier& b : sync_.groups[g])
+      std::erase_if(*groups_[g], [](const CellBarrier& b) { return execution_only(b) && b.src_stages == 0; });
+      for (CellBarrier& b : *groups_[g])
         for (Stages bits = b.src_stages; bits; bits &= bits - 1)
-          if (b.src_accesses == 0 && !b.sources.empty() && std::popcount(b.src_stages) > 1) narrow(b, g, b.src_stages & ~(bits & ~(bits - 1)));
+          if (!b.foreign && b.src_accesses == 0 && !b.sources.empty() && std::popcount(b.src_stages) > 1)
+            narrow(b, g, b.src_stages & ~(bits & ~(bits - 1)));
     }
   }
 
  private:
   // Claims are checked again at each later change, which is what bounds their number.
   static constexpr size_t kMostClaims = 2000;
+
+  // What must hold for the barrier's sources, if the barrier is gone (`src` 0) or waits for `src` only. Barriers of its own group help where execution
+  // alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
+  std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages src) const {
+    std::vector<Claim> claims;
+    const bool transition = b.old_layout != b.new_layout;
+    for (const Event& event : b.sources) {
+      const uint32_t first = event.earlier_frame ? 0 : group_of_slot_[schedule_.slot_before(event.segment)] + 1;
+      for (Stages rest = event.stages; rest; rest &= rest - 1) {
+        const Stages stage = rest & ~(rest - 1);
+        if (transition)
+          claims.push_back({stage, first, group, with_earlier(src), false});
+        else
+          claims.push_back({stage, first, group_of_slot_[b.first_use] + 1, b.dst_stages, true});
+      }
+    }
+    return claims;
+  }
 
   void narrow(CellBarrier& b, uint32_t group, Stages src) {
     if (claims_.size() > kMostClaims) return;
@@ -117,13 +120,25 @@ class Dropper {
     chains_.refresh(group);
   }
 
-  SyncPlan& sync_;
+  std::vector<std::vector<CellBarrier>*> groups_;
+  const std::vector<uint32_t>& group_of_slot_;
+  const Schedule& schedule_;
   Chains chains_;
   std::vector<Claim> claims_;
 };
 
 }  // namespace
 
-void drop_implied(SyncPlan& sync) { Dropper(sync).run(); }
+void drop_implied(SyncPlan& sync, const Schedule& schedule) {
+  std::vector<std::vector<std::vector<CellBarrier>*>> groups(schedule.queues.size());
+  std::vector<uint32_t> group_of_slot;
+  const std::vector<uint32_t> queues = schedule.queues_of_slots();
+  for (uint32_t slot = 0; slot < sync.groups.size(); ++slot) {
+    std::vector<std::vector<CellBarrier>*>& mine = groups[queues[slot]];
+    group_of_slot.push_back(static_cast<uint32_t>(mine.size()));
+    mine.push_back(&sync.groups[slot]);
+  }
+  for (auto& mine : groups) Dropper(std::move(mine), group_of_slot, schedule).run();
+}
 
 }  // namespace rg::compiler

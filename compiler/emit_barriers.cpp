@@ -13,6 +13,7 @@ ImageBarrier image_row(const PlanParts& parts, const PlanIndices& indices, const
   row.src_stages = b.src_stages, row.src_accesses = b.src_accesses;
   row.dst_stages = b.dst_stages, row.dst_accesses = b.dst_accesses;
   row.old_layout = b.old_layout, row.new_layout = b.new_layout;
+  row.src_queue = b.src_queue, row.dst_queue = b.dst_queue;
   row.tag = b.tag;
   return row;
 }
@@ -73,16 +74,27 @@ void emit_boundary(const PlanParts& parts, const PlanIndices& indices, const std
 
 }  // namespace
 
+// Groups in front of segments are always there, for hand-offs of memory; those at the end of a batch where something stands in them, and at the end of a
+// frame on one queue.
+std::vector<Index> groups_of_slots(const PlanParts& parts) {
+  std::vector<Index> groups(parts.sync.groups.size(), kNone);
+  std::vector<bool> opens(groups.size());
+  for (uint32_t segment = 0; segment < parts.schedule.segments; ++segment) opens[parts.schedule.slot_before(segment)] = true;
+  Index next = 0;
+  for (uint32_t slot = 0; slot < groups.size(); ++slot)
+    if (opens[slot] || !parts.sync.groups[slot].empty() || parts.schedule.queues.size() == 1) groups[slot] = next++;
+  return groups;
+}
+
 void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
   std::vector<Acquire> acquires = parts.sync.acquires;  // by program resource, ascending
-  for (const std::vector<CellBarrier>& group : parts.sync.groups) emit_group(parts, indices, group, acquires, exprs, plan);
-  for (Acquire& acquire : acquires) acquire.resource = indices.resource[acquire.resource];
+  const std::vector<Index> group_of_slot = groups_of_slots(parts);
+  for (uint32_t slot = 0; slot < group_of_slot.size(); ++slot)
+    if (group_of_slot[slot] != kNone) emit_group(parts, indices, parts.sync.groups[slot], acquires, exprs, plan);
+  for (Acquire& acquire : acquires) acquire.resource = indices.resource[acquire.resource], acquire.group = group_of_slot[acquire.group];
   plan.acquires = std::move(acquires);
   plan.releases = parts.sync.releases;
   for (Release& release : plan.releases) release.resource = indices.resource[release.resource];
-  plan.alias_pairs = parts.memory.alias_pairs;
-  plan.alias_by_lifetime = parts.memory.alias_by_lifetime;
-  for (AliasPair& pair : plan.alias_pairs) pair.before = indices.resource[pair.before], pair.after = indices.resource[pair.after];
   emit_boundary(parts, indices, parts.sync.entry, exprs, plan.entry);
   emit_boundary(parts, indices, parts.sync.exit, exprs, plan.exit);
 }

@@ -49,6 +49,7 @@ void emit_pass(const PlanParts& parts, const PlanIndices& indices, uint32_t pass
   row.name = intern(from.name), row.module = intern(from.module);
   row.kind = static_cast<PassKind>(from.kind);
   row.guard = guard_bits(from);
+  row.queue = parts.schedule.queue_of_pass(pass);
   row.first_access = static_cast<Index>(plan.accesses.size()), row.access_count = static_cast<Index>(from.accesses.size());
   for (const dsl::Access& access : from.accesses) plan.accesses.push_back(access_row(parts, indices, pass, access));
   row.engine_set = engine_set_of(*parts.frame.program, from.bind);

@@ -47,15 +47,46 @@ void emit_culled(const PlanParts& parts, PlanData& plan) {
 }
 
 void emit_steps(const PlanParts& parts, PlanData& plan) {
+  const Schedule& schedule = parts.schedule;
+  const std::vector<Index> groups = groups_of_slots(parts);
   size_t next = 0;
-  for (uint32_t segment = 0; segment < parts.schedule.segments; ++segment) {
-    plan.steps.push_back({StepKind::barriers, segment});
-    for (; next < parts.schedule.order.size() && parts.schedule.segment_of[parts.schedule.order[next]] == segment; ++next)
-      plan.steps.push_back({StepKind::pass, static_cast<Index>(next)});
+  uint32_t segment = 0;
+  for (uint32_t b = 0; b < schedule.batches; ++b) {
+    Batch batch;
+    batch.queue = segment < schedule.segments ? schedule.queue_of[segment] : 0;
+    batch.first_step = static_cast<Index>(plan.steps.size());
+    for (; segment < schedule.segments && schedule.batch_of[segment] == b; ++segment) {
+      plan.steps.push_back({StepKind::barriers, groups[schedule.slot_before(segment)]});
+      for (; next < schedule.order.size() && schedule.segment_of[schedule.order[next]] == segment; ++next)
+        plan.steps.push_back({StepKind::pass, static_cast<Index>(next)});
+    }
+    if (const Index closing = groups[schedule.closing_slot(b)]; closing != kNone) plan.steps.push_back({StepKind::barriers, closing});
+    batch.step_count = static_cast<Index>(plan.steps.size()) - batch.first_step;
+    plan.batches.push_back(batch);
   }
-  plan.steps.push_back({StepKind::barriers, parts.schedule.segments});
-  plan.queues.push_back({QueueKind::graphics});
-  plan.batches.push_back({0, 0, static_cast<Index>(plan.steps.size()), 0, 0, 0, 0});
+}
+
+// Values of signals count by queue; the last batch of each queue signals the end of its frame. One queue alone needs neither.
+void emit_waits(const PlanParts& parts, PlanData& plan) {
+  for (const dsl::QueueKind kind : parts.schedule.queues) plan.queues.push_back({static_cast<QueueKind>(kind)});
+  if (plan.queues.size() == 1) return;
+  std::vector<Index> last(plan.queues.size(), kNone);
+  for (Index b = 0; b < plan.batches.size(); ++b) last[plan.batches[b].queue] = b;
+  std::vector<uint64_t> values(plan.queues.size()), value_of(plan.batches.size());
+  for (Index b = 0; b < plan.batches.size(); ++b) {
+    Batch& batch = plan.batches[b];
+    const bool retires = last[batch.queue] == b;
+    if (parts.sync.batches[b].signal == 0 && !retires) continue;
+    value_of[b] = ++values[batch.queue];
+    batch.first_signal = static_cast<Index>(plan.signals.size()), batch.signal_count = 1;
+    plan.signals.push_back({value_of[b], retires ? stage::all_commands : parts.sync.batches[b].signal});
+  }
+  for (Index b = 0; b < plan.batches.size(); ++b) {
+    const std::vector<BatchWait>& waits = parts.sync.batches[b].waits;
+    plan.batches[b].first_wait = static_cast<Index>(plan.waits.size()), plan.batches[b].wait_count = static_cast<Index>(waits.size());
+    for (const BatchWait& wait : waits)
+      plan.waits.push_back({wait.queue, wait.batch == kNone ? values[wait.queue] : value_of[wait.batch], wait.stages, wait.batch == kNone ? 1u : 0u});
+  }
 }
 
 }  // namespace
@@ -89,8 +120,8 @@ PlanData emit_plan(const PlanParts& parts) {
   emit_passes(parts, indices, exprs, plan);
   emit_barriers(parts, indices, exprs, plan);
   emit_steps(parts, plan);
+  emit_waits(parts, plan);
   emit_culled(parts, plan);
-  plan.estimated_heap_bytes = parts.memory.heap_bytes;
   plan.exprs = exprs.take();
   return plan;
 }

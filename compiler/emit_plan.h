@@ -5,11 +5,9 @@
 #include "compiler/contents.h"
 #include "compiler/cull.h"
 #include "compiler/expressions.h"
-#include "compiler/find_lifetimes.h"
 #include "compiler/frame.h"
 #include "compiler/make_schedule.h"
 #include "compiler/plan_data.h"
-#include "compiler/plan_memory.h"
 #include "compiler/synchronise.h"
 
 namespace rg::compiler {
@@ -20,9 +18,8 @@ struct PlanParts {
   const Liveness& liveness;
   const Schedule& schedule;
   const ContentsOfUses& contents;
-  const Lifetimes& lifetimes;
-  const MemoryPlan& memory;
   const SyncPlan& sync;
+  const PlanOptions& options;
 };
 
 // Without what shaders bring: pipelines, bindings, samplers, parameter offsets, push constants.
@@ -45,6 +42,8 @@ void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressi
 void emit_passes(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);
 void emit_work(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Expressions& exprs, PlanData& plan, Pass& row);
 void emit_rendering(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Expressions& exprs, PlanData& plan, Pass& row);
+// By slot of the schedule: the plan's group; kNone: none.
+std::vector<Index> groups_of_slots(const PlanParts& parts);
 void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);
 
 }  // namespace rg::compiler

@@ -42,9 +42,10 @@ Resource make_row(const PlanParts& parts, uint32_t program_index, Expressions& e
   row.init = static_cast<InitKind>(from.init);
   row.init_value = plan_clear(from.init_value, row.aspects);
   row.is_surface = from.is_surface;
-  row.no_alias = from.no_alias;
+  row.no_alias = from.no_alias || (from.lifetime == dsl::Lifetime::transient && !parts.options.aliasing);
   row.estimated_bytes = parts.frame.bytes[program_index];
-  row.estimated_offset = parts.memory.offsets[program_index];
+  if (from.lifetime == dsl::Lifetime::transient)
+    row.estimated_alignment = from.kind == dsl::ResourceKind::image ? parts.options.image_alignment : parts.options.buffer_alignment;
   return row;
 }
 
@@ -58,6 +59,8 @@ void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressi
     Resource row = make_row(parts, r, exprs);
     row.usage = usage[r];
     row.import_slot = slots[r];
+    row.concurrent = parts.sync.concurrent[r];
+    if (row.lifetime == rg::Lifetime::transient) row.no_alias = row.no_alias || parts.sync.scattered[r] || parts.options.keep_apart.contains(std::string(row.name));
     plan.resources.push_back(row);
   }
 }

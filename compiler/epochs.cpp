@@ -20,18 +20,21 @@ Effect gpu_effect(const Effect& effect) {
   return result;
 }
 
-void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segment) {
+void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segment, uint32_t queue) {
   if (epochs.empty() || epochs.back().age != age || !joins(epochs.back(), use)) {
     Epoch epoch;
-    epoch.age = age, epoch.first_segment = segment, epoch.share = use.share, epoch.writes = use.writes(), epoch.effect.layout = use.effect.layout;
+    epoch.age = age, epoch.first_segment = segment, epoch.share = use.share, epoch.writes = use.writes(), epoch.effect.layout = use.effect.layout,
+    epoch.queue = queue;
     epochs.push_back(epoch);
   }
   Epoch& epoch = epochs.back();
   RG_CHECK(segment >= epoch.last_segment, "uses arrive in schedule order");
-  merge(epoch.effect, gpu_effect(use.effect));
+  const Effect effect = gpu_effect(use.effect);
+  merge(epoch.effect, effect);
   epoch.last_segment = segment;
+  if (epoch.queue != queue) epoch.queue = kSeveralQueues;
   epoch.needs = epoch.needs || use.needs;
-  epoch.events.push_back({segment, gpu_effect(use.effect).stages(), use.pass, use.effect.read_stages, use.effect.reads});
+  epoch.events.push_back({segment, effect.stages(), use.pass, use.effect.read_stages, use.effect.reads, false, queue, effect});
 }
 
 bool crosses_frames(dsl::Lifetime lifetime) { return lifetime == dsl::Lifetime::history || lifetime == dsl::Lifetime::persistent; }
@@ -54,7 +57,9 @@ void merge(Effect& effect, const Effect& other) {
   effect.reads |= other.reads, effect.writes |= other.writes;
 }
 
-bool continues(const Epoch& earlier, const Epoch& later) { return !earlier.writes && !later.writes && earlier.effect.layout == later.effect.layout; }
+bool continues(const Epoch& earlier, const Epoch& later) {
+  return !earlier.writes && !later.writes && earlier.effect.layout == later.effect.layout && earlier.queue == later.queue && later.queue != kSeveralQueues;
+}
 
 std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
   std::vector<std::vector<const Use*>> by_cell(frame.cells.size());
@@ -66,7 +71,7 @@ std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
     const Grid& grid = frame.grids[frame.cells[cell].resource];
     Line line{cell, {}};
     for (uint32_t age = 0; age < grid.ages; ++age)
-      for (const Use* use : by_cell[cell + age * grid.cells_per_age()]) add(line.epochs, age, *use, schedule.segment_of[use->pass]);
+      for (const Use* use : by_cell[cell + age * grid.cells_per_age()]) add(line.epochs, age, *use, schedule.segment_of[use->pass], schedule.queue_of_pass(use->pass));
     if (line.epochs.empty()) continue;
     for (Epoch& epoch : line.epochs) epoch.covered = epoch.effect;
     if (crosses_frames(frame.resource_of(cell).lifetime)) cover_continued_reads(line);

@@ -24,6 +24,8 @@ struct Event {  // a use as barriers see it
   Stages read_stages = 0;
   Accesses reads = 0;
   bool earlier_frame = false;  // as seen from a barrier
+  uint32_t queue = 0;
+  Effect effect = {};
 };
 
 struct Epoch {
@@ -35,7 +37,9 @@ struct Epoch {
   bool writes = false;
   Share share = Share::none;
   std::vector<Event> events;
+  uint32_t queue = 0;  // of all its events; kSeveralQueues if they differ
 };
+inline constexpr uint32_t kSeveralQueues = UINT32_MAX;
 
 struct Line {
   uint32_t cell = 0;  // at age 0
@@ -48,7 +52,7 @@ std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule);
 // Merges `other` into `effect`; layouts must agree.
 void merge(Effect& effect, const Effect& other);
 
-// True if the reads of `later` may follow those of `earlier` without a barrier, once a barrier has covered both.
+// True if the reads of `later` may follow those of `earlier` without a barrier, once a barrier has covered both: reads of one layout on one queue.
 bool continues(const Epoch& earlier, const Epoch& later);
 
 }  // namespace rg::compiler

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "runtime/alias.h"
+
 namespace rg::compiler {
 namespace {
 
@@ -33,13 +35,14 @@ void explain_passes(const PlanParts& parts, const Graph& graph, Decisions& out) 
   }
 }
 
-void explain_memory(const PlanParts& parts, Decisions& out) {
-  for (uint32_t r = 0; r < parts.lifetimes.size(); ++r) {
-    const Lifetime& life = parts.lifetimes[r];
-    if (!life.used()) continue;
-    out.push_back(
-        {parts.frame.graph->resources.rows[r].name, "placed",
-         fmt::format("at {} with {} bytes, live between groups {} and {}", parts.memory.offsets[r], parts.frame.bytes[r], life.begin, life.end)});
+void explain_memory(const PlanData& plan, Decisions& out) {
+  const std::vector<alias::GroupInterval> intervals = alias::group_intervals(plan.view());
+  for (Index r = 0; r < plan.resources.size(); ++r) {
+    const Resource& resource = plan.resources[r];
+    if (resource.lifetime != Lifetime::transient || !intervals[r].used()) continue;
+    out.push_back({std::string(resource.name), "placed",
+                   fmt::format("at {} with {} bytes, live between groups {} and {}", resource.estimated_offset, resource.estimated_bytes,
+                               intervals[r].begin, intervals[r].end + 1)});
   }
 }
 
@@ -52,10 +55,10 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
 
 }  // namespace
 
-Decisions explain_plan(const PlanParts& parts, const Graph& graph) {
+Decisions explain_plan(const PlanParts& parts, const Graph& graph, const PlanData& plan) {
   Decisions decisions;
   explain_passes(parts, graph, decisions);
-  explain_memory(parts, decisions);
+  explain_memory(plan, decisions);
   explain_barriers(parts, decisions);
   return decisions;
 }

@@ -7,6 +7,6 @@
 namespace rg::compiler {
 
 // Subjects: passes ("kept", "culled", "scheduled"), resources ("placed"), barrier groups "group 3" ("barrier"), and "schedule".
-Decisions explain_plan(const PlanParts& parts, const Graph& graph);
+Decisions explain_plan(const PlanParts& parts, const Graph& graph, const PlanData& plan);
 
 }  // namespace rg::compiler

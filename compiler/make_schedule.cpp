@@ -72,6 +72,7 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
                    [&](uint32_t a, uint32_t b) { return schedule.segment_of[a] < schedule.segment_of[b]; });
   const SegmentCost cost = cost_of(problem, segments), before = cost_of(problem, program_order);
   schedule.segments = cost.segments;
+  schedule.queue_of.assign(cost.segments, 0), schedule.batch_of.assign(cost.segments, 0);
   schedule.peak_bytes = cost.peak;
   schedule.chosen_because = std::to_string(cost.segments) + " groups and " + std::to_string(cost.peak) + " bytes; program order has " +
                             std::to_string(before.segments) + " groups and " + std::to_string(before.peak) + " bytes";

@@ -10,7 +10,7 @@ namespace {
 auto meaning(const Frame& frame, const CellBarrier& b) {
   const Cell& cell = frame.cells[b.cell];
   return std::tuple(cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout, b.new_layout,
-                    b.tag, b.is_acquire, b.wraps);
+                    b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign);
 }
 
 void absorb(CellBarrier& into, CellBarrier& other) {

@@ -4,6 +4,8 @@
 // Cannot fail on user input; a broken expectation is our fault and stops in RG_CHECK.
 #pragma once
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,10 +16,19 @@ namespace rg::compiler {
 
 using Configuration = std::vector<uint32_t>;  // one value a FeatureId
 
+enum class Prefer : uint8_t { balance, time, memory, barriers, order };
+enum class Effort : uint8_t { fast, normal, max };
+
 // What may be switched off, each a driver work-around with its own flag on the command line.
 struct PlanOptions {
-  bool aliasing = true, reorder = true, merge = true, discard = true;
+  bool aliasing = true, reorder = true, merge = true, discard = true, async = true;
   uint64_t image_alignment = 65536, buffer_alignment = 256;  // of the device profile used for estimates
+  Prefer prefer = Prefer::balance;
+  Effort effort = Effort::normal;
+  std::vector<dsl::QueueKind> queues = {dsl::QueueKind::graphics};  // what the plan may use; the first is where passes run that name none
+  std::map<std::string, double> measured_us = {};                  // by pass name: measured times in place of estimates
+  std::set<std::string> keep_apart = {};                           // resources that share no memory, whatever `aliasing` says
+  std::set<std::string> keep_home = {};                            // passes that stay on the first queue, whatever `async` says
 };
 
 // Why something is as it is: the record that reports and `rgc explain` read.
@@ -29,11 +40,21 @@ struct Decision {
 };
 using Decisions = std::vector<Decision>;
 
+// What several queues are worth, in ns of the cost model; see compiler/queue_timeline.h.
+struct Overlap {
+  double serial = 0, critical_path = 0, bound = 0, end = 0;
+  uint64_t simulations = 0;
+  bool complete = true;
+  size_t moved = 0, movable = 0;
+  std::vector<double> work;  // by queue of the plan
+};
+
 struct FramePlan {
   Configuration configuration;
   PlanData plan;        // without pipelines, bindings and shaders: see codegen/bind.h
   Decisions decisions;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
+  Overlap overlap;
   std::vector<std::pair<std::string, double>> phase_ms;
 };
 

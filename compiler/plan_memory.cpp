@@ -1,42 +1,63 @@
 #include "compiler/plan_memory.h"
 
+#include "runtime/alias.h"
 #include "runtime/packing.h"
 
 namespace rg::compiler {
 namespace {
 
-bool disjoint(const Lifetime& a, const Lifetime& b) { return a.end <= b.begin || b.end <= a.begin; }
+struct Items {
+  std::vector<Index> resources;
+  std::vector<packing::Item> rows;
+};
 
-std::vector<AliasPair> list_pairs(const Lifetimes& lifetimes, const std::vector<uint32_t>& used) {
-  std::vector<AliasPair> pairs;
-  for (const uint32_t after : used)
-    for (const uint32_t before : used)
-      if (before != after && disjoint(lifetimes[before], lifetimes[after]))
-        pairs.push_back({before, after, lifetimes[after].begin < lifetimes[before].end});
-  return pairs;
+Items list_items(const PlanData& plan, const Plan& view) {
+  const std::vector<alias::GroupInterval> intervals = alias::group_intervals(view);
+  const alias::Sharing sharing(view);
+  Items items;
+  for (Index r = 0; r < plan.resources.size(); ++r) {
+    const Resource& resource = plan.resources[r];
+    if (resource.lifetime != Lifetime::transient || !intervals[r].used()) continue;
+    const bool alone = resource.no_alias || !sharing.acquire(r);
+    const uint32_t begin = alone ? 0 : intervals[r].begin, end = alone ? static_cast<uint32_t>(plan.groups.size()) : intervals[r].end + 1;
+    items.resources.push_back(r);
+    items.rows.push_back({resource.estimated_bytes, resource.estimated_alignment, begin, end});
+  }
+  return items;
+}
+
+std::vector<packing::Conflict> list_conflicts(const Items& items, const Plan& view) {
+  const alias::Sharing sharing(view);
+  std::vector<packing::Conflict> conflicts;
+  for (uint32_t a = 0; a < items.rows.size(); ++a)
+    for (uint32_t b = a + 1; b < items.rows.size(); ++b)
+      if (!sharing.may_share(items.resources[a], items.resources[b])) conflicts.emplace_back(a, b);
+  return conflicts;
 }
 
 }  // namespace
 
-MemoryPlan plan_memory(const Frame& frame, const Lifetimes& lifetimes, const PlanOptions& options) {
+MemoryPlan place_transients(PlanData& plan) {
+  const Plan view = plan.view();
+  const Items items = list_items(plan, view);
   MemoryPlan memory;
-  memory.offsets.resize(lifetimes.size());
-  std::vector<uint32_t> used;
-  std::vector<packing::Item> items;
-  for (uint32_t r = 0; r < lifetimes.size(); ++r) {
-    if (!lifetimes[r].used()) continue;
-    const bool image = frame.graph->resources.rows[r].kind == dsl::ResourceKind::image;
-    used.push_back(r);
-    items.push_back({frame.bytes[r], image ? options.image_alignment : options.buffer_alignment, lifetimes[r].begin, lifetimes[r].end});
-    memory.unaliased_bytes += frame.bytes[r];
-  }
-  const packing::Placement placement = packing::pack(items);
-  for (size_t i = 0; i < used.size(); ++i) memory.offsets[used[i]] = placement.offsets[i];
+  for (const packing::Item& item : items.rows) memory.unaliased_bytes += item.bytes;
+  const packing::Placement placement = plan.queues.size() == 1 ? packing::pack(items.rows) : packing::pack(items.rows, list_conflicts(items, view));
+  for (size_t i = 0; i < items.rows.size(); ++i) plan.resources[items.resources[i]].estimated_offset = placement.offsets[i];
   memory.heap_bytes = placement.heap_bytes, memory.lower_bound_bytes = placement.lower_bound_bytes;
-
-  memory.alias_by_lifetime = used.size() > kMostListed;
-  if (!memory.alias_by_lifetime) memory.alias_pairs = list_pairs(lifetimes, used);
+  plan.estimated_heap_bytes = memory.heap_bytes;
   return memory;
+}
+
+void list_alias_pairs(PlanData& plan) {
+  plan.alias_by_lifetime = plan.acquires.size() > kMostListed;
+  if (plan.alias_by_lifetime) return;
+  const Plan view = plan.view();
+  const alias::Sharing sharing(view);
+  for (const Acquire& after : plan.acquires)
+    for (const Acquire& before : plan.acquires)
+      if (sharing.may_share(before.resource, after.resource))
+        plan.alias_pairs.push_back({before.resource, after.resource, !sharing.may_follow(before.resource, after.resource, false)});
 }
 
 }  // namespace rg::compiler

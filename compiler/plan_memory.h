@@ -1,23 +1,23 @@
-// Where transients lie, estimated at the initial extents, and which of them may share bytes at all.
+// Where transients lie, estimated at the initial extents.
+//
+// Which of them may share bytes follows from the plan's points and clocks, see runtime/alias.h. On one queue that is the same as lives that do not meet;
+// then the packer works on intervals. On several queues it works on the pairs that must not share, and the bound is that of the serial order.
 #pragma once
 
-#include <vector>
-
-#include "compiler/find_lifetimes.h"
 #include "compiler/frame.h"
+#include "compiler/plan_data.h"
 
 namespace rg::compiler {
 
 struct MemoryPlan {
-  std::vector<uint64_t> offsets;       // by program resource; meaningful where the lifetime is used
-  std::vector<AliasPair> alias_pairs;  // resources by program index, sorted
-  bool alias_by_lifetime = false;      // too many to list
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;
 };
 
-// Two transients may share bytes where their lifetimes are disjoint: the earlier hands over within the frame, the later to the next frame.
-// Plans of up to kMostListed transients list every such pair; for larger ones the list would grow with the square and the rule stands for it.
+// Fills Resource::estimated_offset of transients and Plan::estimated_heap_bytes. Pre-condition: find_alias_clocks().
+MemoryPlan place_transients(PlanData& plan);
+
+// Pairs that may share, for readers that want a list; none and `alias_by_lifetime` where there are more than kMostListed transients.
 inline constexpr size_t kMostListed = 512;
-MemoryPlan plan_memory(const Frame& frame, const Lifetimes& lifetimes, const PlanOptions& options);
+void list_alias_pairs(PlanData& plan);
 
 }  // namespace rg::compiler

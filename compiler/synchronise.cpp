@@ -2,56 +2,23 @@
 
 #include <algorithm>
 
+#include "compiler/queue_links.h"
 #include "dsl/check_macro.h"
 
 namespace rg::compiler {
 namespace {
 
-// One side of a barrier: what happened, or what comes.
-struct Side {
-  Effect effect;
-  bool writes = false;
-  bool defined = true;  // holds contents
-  bool needs = false;   // as the later side: depends on contents
-  std::vector<Event> events;
-  bool skippable = false;  // every use may be skipped, so that what came before meets what comes after
-  Effect seen = {};        // as the later side: reads the contents are already visible to
-};
-
-const char* hazard_name(const Side& from, const Side& to, bool discards) {
-  if (!from.defined && !from.writes && from.effect.reads == 0) return "first use";
-  if (discards && !to.needs) return from.writes ? "write after write, contents discarded" : "write after read, contents discarded";
-  if (from.writes) return to.needs ? "read after write" : "write after write";
-  return to.writes ? "write after read" : "layout";
-}
-
 bool is_subset(uint64_t part, uint64_t whole) { return (part & ~whole) == 0; }
-
-// Adds the stages and reads that `seen` lacks.
-void add_unseen(Stages stages, Accesses accesses, const Effect& seen, Effect& unseen) {
-  for (Stages rest = stages; rest; rest &= rest - 1) {
-    const Stages stage = rest & ~(rest - 1);
-    const Accesses reads = accesses & supported_accesses(stage) & ~((seen.read_stages & stage) ? seen.reads : 0);
-    unseen.reads |= reads;
-    if (reads) unseen.read_stages |= stage;
-  }
-}
-// Use by use, because what two of them do together is more than what both do.
-Effect not_seen(const Side& side) {
-  Effect unseen;
-  if (side.events.empty()) add_unseen(side.effect.read_stages, side.effect.reads, side.seen, unseen);
-  for (const Event& event : side.events) add_unseen(event.read_stages, event.reads, side.seen, unseen);
-  return unseen;
-}
 
 class Synchroniser {
  public:
   Synchroniser(const Frame& frame, const Schedule& schedule, const PlanOptions& options) : frame_(frame), schedule_(schedule), options_(options) {
-    sync_.groups.resize(schedule.segments + 1);
+    sync_.groups.resize(schedule.slots());
   }
 
   SyncPlan run(const std::vector<Line>& lines) {
     find_first_segments(lines);
+    find_shared(lines);
     for (const Line& line : lines) {
       switch (frame_.resource_of(line.cell).lifetime) {
         case dsl::Lifetime::transient:
@@ -70,6 +37,7 @@ class Synchroniser {
       }
     }
     place_exits();
+    sync_.batches = reduce_waits(schedule_, needs_);
     return std::move(sync_);
   }
 
@@ -80,7 +48,6 @@ class Synchroniser {
     return {epoch.covered, epoch.writes, defined, epoch.needs, epoch.events, skippable, {}};
   }
 
-  bool is_image(uint32_t cell) const { return frame_.resource_of(cell).kind == dsl::ResourceKind::image; }
   uint32_t cell_at(const Line& line, uint32_t age) const { return line.cell + age * frame_.grids[frame_.cells[line.cell].resource].cells_per_age(); }
 
   void find_first_segments(const std::vector<Line>& lines) {
@@ -91,52 +58,36 @@ class Synchroniser {
     }
   }
 
+  // What several queues use, and transients of which no use comes before all others.
+  void find_shared(const std::vector<Line>& lines) {
+    const size_t resources = frame_.graph->resources.size();
+    sync_.concurrent.assign(resources, false), sync_.scattered.assign(resources, false);
+    std::vector<uint32_t> user(resources, UINT32_MAX);
+    for (const Line& line : lines) {
+      const uint32_t r = frame_.cells[line.cell].resource;
+      const bool buffer = frame_.resource_of(line.cell).kind == dsl::ResourceKind::buffer;
+      const bool outlives = frame_.resource_of(line.cell).lifetime != dsl::Lifetime::transient;
+      const uint32_t acquirer = schedule_.queue_of[first_segment_[r]];
+      sync_.scattered[r] = sync_.scattered[r] || line.epochs.front().queue != acquirer;
+      for (const Epoch& epoch : line.epochs) {
+        if (user[r] == UINT32_MAX) user[r] = epoch.queue;
+        const bool several = epoch.queue == kSeveralQueues || ((buffer || outlives) && epoch.queue != user[r]);
+        sync_.concurrent[r] = sync_.concurrent[r] || several;
+      }
+    }
+  }
+
   // ---- one barrier ------------------------------------------------------------------------------------------------
 
-  CellBarrier connect(uint32_t cell, const Side& from, const Side& to) const {
-    CellBarrier b;
-    b.cell = cell, b.range = frame_.cells[cell].range, b.begin = frame_.cells[cell].begin, b.end = frame_.cells[cell].end;
-    // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
-    const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;
-    const bool discards = is_image(cell) && (!from.defined || (options_.discard && !to.needs && worthwhile));
-    if (is_image(cell)) b.old_layout = discards ? Layout::undefined : from.effect.layout, b.new_layout = to.effect.layout;
-    const bool new_layout = is_image(cell) && (b.old_layout != b.new_layout);
-    const bool rewrites = to.writes || new_layout;  // waits for readers too
-
-    b.src_accesses = from.effect.writes;
-    b.src_stages = from.effect.write_stages;
-    if (rewrites || !from.writes) b.src_stages |= latest_stages(from.effect.read_stages | from.effect.write_stages) & ~from.effect.write_stages;
-    fill_second_scope(b, from, to, new_layout);
-    b.sources = from.events;
-    b.wraps = std::any_of(from.events.begin(), from.events.end(), [](const Event& event) { return event.earlier_frame; });
-    b.reason = hazard_name(from, to, discards);
-    return b;
-  }
-
-  static void fill_second_scope(CellBarrier& b, const Side& from, const Side& to, bool new_layout) {
-    const Effect& e = to.effect;
-    if (from.writes || new_layout) {
-      b.dst_stages = e.stages(), b.dst_accesses = e.reads | e.writes;
-      return;
-    }
-    // Contents made available before, not yet visible to all reads of this one.
-    const Effect unseen = to.seen.reads ? not_seen(to) : e;
-    const bool visible = unseen.reads == 0 || (is_subset(e.reads, from.effect.reads) && is_subset(e.read_stages, from.effect.read_stages));
-    if (to.needs && from.defined && !visible)
-      b.dst_stages = unseen.read_stages | earliest_stages(e.write_stages), b.dst_accesses = unseen.reads;
-    else
-      b.dst_stages = earliest_stages(to.writes ? e.write_stages : e.stages());
-    // Without the readers in between this is a write after the write before them: made available by the barrier that serves them, not yet visible.
-    if (from.skippable && to.writes) b.dst_stages |= e.write_stages, b.dst_accesses |= e.writes;
-  }
-
-  // Nothing to order and nothing to change.
-  bool is_void(const CellBarrier& b) const { return b.src_stages == 0 && b.old_layout == b.new_layout; }
-
-  void add(uint32_t group, CellBarrier barrier) {
-    if (is_void(barrier)) return;
-    barrier.first_use = std::max(barrier.first_use, group);
-    sync_.groups[group].push_back(std::move(barrier));
+  // Orders `to`, whose first user is in `segment`, after `from`. An acquire stands in front of `acquire`.
+  void link(uint32_t cell, const Side& from, const Side& to, uint32_t segment, uint32_t acquire = UINT32_MAX) {
+    const std::vector<uint32_t> before = queues_of(from), after = queues_of(to);
+    if (before.size() > 1 || after.size() > 1 || (!before.empty() && !after.empty() && before != after))
+      return cross(frame_, schedule_, options_, {cell, from, to, acquire}, sync_, needs_);
+    CellBarrier b = connect(frame_, options_, cell, from, to);
+    b.is_acquire = acquire != UINT32_MAX;
+    b.first_use = schedule_.slot_before(segment);
+    add_barrier(sync_, b.is_acquire ? schedule_.slot_before(acquire) : b.first_use, std::move(b));
   }
 
   // ---- within a frame -----------------------------------------------------------------------------------------------
@@ -149,7 +100,7 @@ class Synchroniser {
       if (i > 0) {
         Side from = side_of(line.cell, line.epochs[i - 1], defined), next = side_of(line.cell, to, true);
         if (seen) from.skippable = false, next.seen = *seen;
-        add(to.first_segment, connect(cell_at(line, to.age), from, next));
+        link(cell_at(line, to.age), from, next, to.first_segment);
       }
       if (to.writes || to.effect.layout != line.epochs.front().effect.layout) seen = nullptr;
       defined = defined || to.writes;
@@ -160,27 +111,35 @@ class Synchroniser {
   // ---- lifetimes ----------------------------------------------------------------------------------------------------
 
   void transient(const Line& line) {
-    const uint32_t resource = frame_.cells[line.cell].resource, group = first_segment_[resource];
+    const uint32_t resource = frame_.cells[line.cell].resource, segment = first_segment_[resource];
     Side last = side_of(line.cell, line.epochs.back(), false);
     for (Event& event : last.events) event.earlier_frame = true;
-    CellBarrier acquire = connect(line.cell, last, side_of(line.cell, line.epochs.front(), true));
-    acquire.is_acquire = true;
-    acquire.first_use = line.epochs.front().first_segment;
-    add(group, std::move(acquire));
+    const bool acquired = !sync_.scattered[resource];
+    link(line.cell, last, side_of(line.cell, line.epochs.front(), true), line.epochs.front().first_segment, acquired ? segment : UINT32_MAX);
     connect_within(line, false);
-    note_hand_over(resource, group, line.epochs.front().effect, line.epochs.back().effect);
-    boundary(sync_.entry, line.cell, last.effect, last.writes, Layout::undefined, true);
-    boundary(sync_.exit, line.cell, last.effect, last.writes, last.effect.layout, true);
+    if (acquired) note_hand_over(line, resource, schedule_.slot_before(segment));
+    boundary(sync_.entry, line.cell, last, Layout::undefined, true);
+    boundary(sync_.exit, line.cell, last, last.effect.layout, true);
   }
 
-  void note_hand_over(uint32_t resource, uint32_t group, const Effect& first, const Effect& last) {
-    if (sync_.acquires.empty() || sync_.acquires.back().resource != resource) {
-      sync_.acquires.push_back({resource, group, kNone, 0, 0, 0});
-      sync_.releases.push_back({resource, 0, 0});
-    }
+  void note_hand_over(const Line& line, uint32_t resource, uint32_t slot) {
+    if (sync_.acquires.empty() || sync_.acquires.back().resource != resource) sync_.acquires.push_back({resource, slot, kNone, 0, 0, 0});
+    const Effect& first = line.epochs.front().effect;
     sync_.acquires.back().stages |= first.stages(), sync_.acquires.back().accesses |= first.reads | first.writes;
-    sync_.releases.back().stages |= last.write_stages | latest_stages(last.stages());
-    sync_.releases.back().accesses |= last.writes;
+    const Side last = side_of(line.cell, line.epochs.back(), false);
+    for (const uint32_t queue : queues_of(last)) {
+      const Effect effect = on_queue(frame_, line.cell, last, queue).effect;
+      Release& release = release_of(resource, queue);
+      release.stages |= effect.write_stages | latest_stages(effect.stages());
+      release.accesses |= effect.writes;
+    }
+  }
+  Release& release_of(uint32_t resource, uint32_t queue) {
+    auto& rows = sync_.releases;
+    for (size_t i = rows.size(); i-- > 0 && rows[i].resource == resource;)
+      if (rows[i].queue == queue) return rows[i];
+    rows.push_back({resource, 0, 0, queue, 0});
+    return rows.back();
   }
 
   // History and persistent: the state at the end of one age is the state at the start of the next.
@@ -191,7 +150,7 @@ class Synchroniser {
       if (continues(from, to)) continue;
       Side before = with_continued_reads(line, i);
       before.defined = i > 0 || !is_dead_at_entry(line);
-      add(to.first_segment, connect(cell_at(line, to.age), before, side_of(line.cell, to, true)));
+      link(cell_at(line, to.age), before, side_of(line.cell, to, true), to.first_segment);
     }
     state_circle(line);
   }
@@ -209,10 +168,9 @@ class Synchroniser {
     Side state = with_continued_reads(line, 0);
     size_t next = 0;
     for (uint32_t age = 0; age < ages; ++age) {
-      boundary(sync_.entry, cell_at(line, age), state.effect, state.writes, age == 0 && dead ? Layout::undefined : state.effect.layout,
-               age == 0 && dead);
+      boundary(sync_.entry, cell_at(line, age), state, age == 0 && dead ? Layout::undefined : state.effect.layout, age == 0 && dead);
       for (; next < line.epochs.size() && line.epochs[next].age == age; ++next) state = with_continued_reads(line, next + 1);
-      boundary(sync_.exit, cell_at(line, age), state.effect, state.writes, state.effect.layout, age + 1 == ages && dead);
+      boundary(sync_.exit, cell_at(line, age), state, state.effect.layout, age + 1 == ages && dead);
     }
   }
 
@@ -246,13 +204,13 @@ class Synchroniser {
     enter(whole, before);
     const bool defined = connect_within(whole, before.defined, settled(before, whole.epochs.front()) ? &before.effect : nullptr);
     const Epoch& last = whole.epochs.back();
-    boundary(sync_.entry, line.cell, before.effect, before.writes, before.effect.layout, !before.defined);
+    boundary(sync_.entry, line.cell, before, before.effect.layout, !before.defined);
     if (resource.after.role == dsl::Role::undefined) {
-      boundary(sync_.exit, line.cell, last.effect, last.writes, last.effect.layout, true);
+      boundary(sync_.exit, line.cell, side_of(line.cell, last, true), last.effect.layout, true);
       return;
     }
     if (!continues_after(last, after)) leave(whole, before, after, defined);
-    boundary(sync_.exit, line.cell, after, after.writes != 0, after.layout, false);
+    boundary(sync_.exit, line.cell, {after, after.writes != 0, true, true, {}, false, {}}, after.layout, false);
   }
 
   void enter(const Line& line, const Side& before) {
@@ -260,7 +218,7 @@ class Synchroniser {
     if (is_visible(before, first)) return;
     Side to = side_of(line.cell, first, true);
     if (before.defined && !before.writes) to.seen = before.effect;
-    add(first.first_segment, connect(line.cell, before, to));
+    link(line.cell, before, to, first.first_segment);
   }
 
   void leave(const Line& line, const Side& before, const Effect& after, bool defined) {
@@ -271,7 +229,7 @@ class Synchroniser {
       next.seen = before.effect;
     else if (!last.writes && last.effect.layout == after.layout)
       next.seen = last.covered;
-    exits_.push_back({last.last_segment + 1, connect(line.cell, unnamed(side_of(line.cell, last, defined), after), next)});
+    exit(last, connect(frame_, options_, line.cell, unnamed(side_of(line.cell, last, defined), after), next));
   }
 
   // The epoch leaves contents and layout as they came.
@@ -329,35 +287,49 @@ class Synchroniser {
     if (joins) merge(last.covered, host);
     connect_within(whole, false);
     if (!joins)
-      exits_.push_back({last.last_segment + 1, connect(line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}})});
-    boundary(sync_.entry, line.cell, {}, false, Layout::undefined, true);
-    boundary(sync_.exit, line.cell, host, false, Layout::undefined, false);
+      exit(last, connect(frame_, options_, line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}}));
+    boundary(sync_.entry, line.cell, {}, Layout::undefined, true);
+    boundary(sync_.exit, line.cell, {host, false, true, true, {}, false, {}}, Layout::undefined, false);
   }
 
   // ---- the frame's end ----------------------------------------------------------------------------------------------
 
-  // Together in the closing group where one needs it, else in the last group there is.
+  void exit(const Epoch& last, CellBarrier barrier) { exits_.push_back({last.last_segment, std::move(barrier)}); }
+
+  // Together in the closing group of their queue where one needs it, else in the last group there is.
   void place_exits() {
-    const uint32_t end = schedule_.segments;
-    const bool closes = std::any_of(exits_.begin(), exits_.end(), [&](const Exit& exit) { return exit.earliest_group == end; });
-    for (Exit& exit : exits_) add(closes ? end : end - 1, std::move(exit.barrier));
+    std::vector<uint32_t> last(schedule_.queues.size());
+    for (uint32_t segment = 0; segment < schedule_.segments; ++segment) last[schedule_.queue_of[segment]] = segment;
+    std::vector<bool> closes(schedule_.queues.size());
+    for (const Exit& exit : exits_) closes[schedule_.queue_of[exit.segment]] = closes[schedule_.queue_of[exit.segment]] || exit.segment == last[schedule_.queue_of[exit.segment]];
+    for (Exit& exit : exits_) {
+      const uint32_t queue = schedule_.queue_of[exit.segment], end = last[queue];
+      add_barrier(sync_, closes[queue] ? schedule_.closing_slot(schedule_.batch_of[end]) : schedule_.slot_before(end), std::move(exit.barrier));
+    }
   }
 
-  static void boundary(std::vector<CellBoundary>& rows, uint32_t cell, const Effect& effect, bool writes, Layout layout, bool discard) {
-    Boundary row;
-    row.stages = effect.stages(), row.layout = layout, row.queue = 0, row.discard = discard;
-    if (writes || !discard) row.accesses = writes ? effect.writes : effect.reads;
-    rows.push_back({cell, row});
+  // One row a queue that has last users.
+  void boundary(std::vector<CellBoundary>& rows, uint32_t cell, const Side& side, Layout layout, bool discard) const {
+    std::vector<uint32_t> queues = queues_of(side);
+    if (queues.empty()) queues = {0};
+    for (const uint32_t queue : queues) {
+      const Side mine = queues.size() > 1 ? on_queue(frame_, cell, side, queue) : side;
+      Boundary row;
+      row.stages = mine.effect.stages(), row.layout = layout, row.queue = queue, row.discard = discard;
+      if (mine.writes || !discard) row.accesses = mine.writes ? mine.effect.writes : mine.effect.reads;
+      rows.push_back({cell, row});
+    }
   }
 
   struct Exit {
-    uint32_t earliest_group = 0;
+    uint32_t segment = 0;  // of the last user
     CellBarrier barrier;
   };
   const Frame& frame_;
   const Schedule& schedule_;
   const PlanOptions& options_;
   SyncPlan sync_;
+  std::vector<Need> needs_;
   std::vector<uint32_t> first_segment_;  // by program resource
   std::vector<Exit> exits_;
 };
@@ -367,7 +339,7 @@ class Synchroniser {
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options) {
   SyncPlan sync = Synchroniser(frame, schedule, options).run(lines);
   for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
-  drop_implied(sync);
+  drop_implied(sync, schedule);
   return sync;
 }
 

@@ -25,6 +25,10 @@
 
 namespace rg::compiler {
 
+// Between queues there are no barriers: the batch of the later users waits for the end of the batch of the earlier ones. An image that one queue uses at a
+// time changes hands by a release at the end of the one batch and an acquire in the other; images read on several queues at once, and history used on
+// several, are shared instead. A layout changes on the queue of the later users, or, where those are on several, at the end of the earlier users' batch.
+// A barrier that goes on after a wait names the stages that wait as its first scope.
 struct CellBarrier {
   uint32_t cell = 0;  // with its age
   Range range;        // as merged; equals the cell's at first
@@ -36,7 +40,9 @@ struct CellBarrier {
   bool is_acquire = false;     // first use of a transient
   bool wraps = false;          // its first scope lies in the frame before
   std::vector<Event> sources;  // what must have happened
-  uint32_t first_use = 0;      // the segment that needs it; later than the group only for discards of a transient
+  uint32_t first_use = 0;      // the slot that needs it; later than the group only for discards of a transient
+  uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
+  bool foreign = false;        // goes on after a wait, or comes before one; never dropped
   std::string reason;          // "read after write"
 };
 
@@ -45,9 +51,21 @@ struct CellBoundary {
   Boundary row;  // without reference and range
 };
 
+// A batch waits for another one of this frame, or (`batch` kNone) for the end of the frame before on `queue`.
+struct BatchWait {
+  uint32_t queue = 0, batch = kNone;
+  Stages stages = 0;
+};
+struct BatchSync {
+  std::vector<BatchWait> waits;
+  Stages signal = 0;  // 0: nobody waits for it
+};
+
 struct SyncPlan {
-  std::vector<std::vector<CellBarrier>> groups;  // groups[s] stands before segment s; the last one ends the frame
-  std::vector<CellBoundary> entry, exit;
+  std::vector<std::vector<CellBarrier>> groups;  // by slot, see Schedule
+  std::vector<BatchSync> batches;
+  std::vector<bool> concurrent, scattered;  // by program resource; scattered: first used on several queues, so that its memory is not shared
+  std::vector<CellBoundary> entry, exit;     // one row a queue that has last users
   std::vector<Acquire> acquires;  // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
 };
@@ -58,6 +76,6 @@ SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::ve
 void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group);
 
 // Removes what other barriers already order: execution-only barriers, and stages of execution-only first scopes. Part of synchronise.
-void drop_implied(SyncPlan& sync);
+void drop_implied(SyncPlan& sync, const Schedule& schedule);
 
 }  // namespace rg::compiler

@@ -70,21 +70,6 @@ VkDeviceSize place_side_by_side(const std::vector<Item*>& items) {
   return end;
 }
 
-// Pairs of which either may take over the other's bytes, this frame or across frames. Symmetric.
-class AllowedPairs {
- public:
-  explicit AllowedPairs(const Plan& plan) {
-    for (const AliasPair& pair : plan.alias_pairs) pairs_.push_back({pair.before, pair.after});
-    std::sort(pairs_.begin(), pairs_.end());
-  }
-  bool share(Index a, Index b) const {
-    return std::binary_search(pairs_.begin(), pairs_.end(), std::pair{a, b}) && std::binary_search(pairs_.begin(), pairs_.end(), std::pair{b, a});
-  }
-
- private:
-  std::vector<std::pair<Index, Index>> pairs_;
-};
-
 std::vector<packing::Item> packing_items(const Plan& plan, const std::vector<Item*>& items) {
   const std::vector<alias::GroupInterval> intervals = alias::group_intervals(plan);
   std::vector<packing::Item> out;
@@ -98,11 +83,11 @@ std::vector<packing::Item> packing_items(const Plan& plan, const std::vector<Ite
 
 // Transients share bytes where the plan allows it. Returns the bytes needed.
 VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& items, VkDeviceSize& lower_bound) {
-  const AllowedPairs allowed(context.plan);
+  const alias::Sharing allowed(context.plan);
   std::vector<packing::Conflict> conflicts;
   for (uint32_t a = 0; a < items.size(); ++a)
     for (uint32_t b = a + 1; b < items.size(); ++b)
-      if (!allowed.share(items[a]->resource, items[b]->resource)) conflicts.emplace_back(a, b);
+      if (!allowed.may_share(items[a]->resource, items[b]->resource)) conflicts.emplace_back(a, b);
   const packing::Placement placement = packing::pack(packing_items(context.plan, items), conflicts);
   for (size_t i = 0; i < items.size(); ++i) items[i]->offset = placement.offsets[i];
   lower_bound = placement.lower_bound_bytes;

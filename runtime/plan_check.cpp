@@ -70,8 +70,13 @@ void check_aliases(const Plan& plan, Checker& c) {
     c.index(acquire.group, plan.groups.size(), "acquire", i, "group");
     if (acquire.image_barrier != kNone)
       c.range(acquire.image_barrier, acquire.image_barriers, plan.image_barriers.size(), "acquire", i, "image barriers");
+    c.index(acquire.queue, plan.queues.size(), "acquire", i, "queue");
+    if (acquire.first_clock != kNone) c.range(acquire.first_clock, static_cast<uint32_t>(2 * plan.queues.size()), plan.alias_clocks.size(), "acquire", i, "clocks");
   }
-  for (size_t i = 0; i < plan.releases.size(); ++i) c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
+  for (size_t i = 0; i < plan.releases.size(); ++i) {
+    c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
+    c.index(plan.releases[i].queue, plan.queues.size(), "release", i, "queue");
+  }
   for (size_t i = 0; i < plan.alias_pairs.size(); ++i) {
     c.index(plan.alias_pairs[i].before, plan.resources.size(), "alias pair", i, "before");
     c.index(plan.alias_pairs[i].after, plan.resources.size(), "alias pair", i, "after");

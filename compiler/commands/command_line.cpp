@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <memory>
 
 #include "compiler/commands/command.h"
@@ -20,9 +21,33 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
         flag, [&what] { what = false; }, help);
   };
   off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
+  off("--no-async", options.plan.async, "use one queue");
   off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
-  off("--no-merge", options.plan.merge, "keep every rendering of its own");
+  off("--no-merge", options.plan.merge, "a barrier group before every pass, every rendering of its own");
   off("--no-discard", options.plan.discard, "load and store all attachments");
+  command.add_option("--keep-apart", options.plan.keep_apart, "a resource that shares no memory")->type_name("RESOURCE")->allow_extra_args(false);
+  command.add_option("--keep-home", options.plan.keep_home, "a pass that stays on the first queue")->type_name("PASS")->allow_extra_args(false);
+  const std::map<std::string, dsl::QueueKind> kinds = {
+      {"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}};
+  command.add_option("--queues", options.plan.queues, "what the plan may use, graphics first; default: graphics")
+      ->type_name("KIND,...")
+      ->delimiter(',')
+      ->transform(CLI::CheckedTransformer(kinds))
+      ->check([&options](const std::string&) { return options.plan.queues.size() > 16 ? std::string("at most 16 queues") : std::string(); });
+  const std::map<std::string, compiler::Prefer> preferences = {{"balance", compiler::Prefer::balance},
+                                                               {"time", compiler::Prefer::time},
+                                                               {"memory", compiler::Prefer::memory},
+                                                               {"barriers", compiler::Prefer::barriers},
+                                                               {"order", compiler::Prefer::order}};
+  command.add_option("--prefer", options.plan.prefer, "balance, time, memory, barriers or order")
+      ->type_name("WHAT")
+      ->transform(CLI::CheckedTransformer(preferences));
+  const std::map<std::string, compiler::Effort> efforts = {
+      {"fast", compiler::Effort::fast}, {"default", compiler::Effort::normal}, {"max", compiler::Effort::max}};
+  command.add_option("--effort", options.plan.effort, "of the search for an order: fast, default or max")
+      ->type_name("HOW")
+      ->transform(CLI::CheckedTransformer(efforts));
+  command.add_option("--profile", options.profile, "measured times of passes, frame.profile.json; see docs/planner.md")->type_name("FILE");
 }
 
 // A subcommand that fills `Options` and then runs `work`.

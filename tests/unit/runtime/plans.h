@@ -232,8 +232,9 @@ inline Aliased aliased() {
     copy.kind = TransferKind::copy_image_to_buffer, copy.src = {image, 0}, copy.dst = {result, 0};
     const Index barrier = static_cast<Index>(p.image_barriers.size()), group = static_cast<Index>(p.groups.size());
     p.barriers({discard(image, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy)});
-    p.acquires.push_back({image, group, barrier, 1, stage::clear, access::transfer_write});
-    p.releases.push_back({image, stage::copy, access::none});
+    p.acquires.push_back({image, group, barrier, 1, stage::clear, access::transfer_write, 0, group, static_cast<Index>(p.alias_clocks.size())});
+    p.alias_clocks.insert(p.alias_clocks.end(), {group, 5});  // the batch ends at point 5
+    p.releases.push_back({image, stage::copy, access::none, 0, group + 2});
     p.transfer("clear", {clear}, {touches({image, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
     p.barriers(
         {transition(image, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});

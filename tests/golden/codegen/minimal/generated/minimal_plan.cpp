@@ -31,8 +31,8 @@ constexpr Extent kExtents[] = {
 constexpr Resource kResources[] = {
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 0, .estimated_bytes = 65536, .line = 7, .file = "minimal.rg"},
-    {.name = "waves", .format = Format{97}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536, .line = 9,
-     .file = "minimal.rg"},
+    {.name = "waves", .format = Format{97}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
+     .estimated_alignment = 65536, .line = 9, .file = "minimal.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -86,11 +86,15 @@ constexpr Boundary kExit[] = {
 
 constexpr Acquire kAcquires[] = {
     {.resource = resource::waves, .group = 0, .image_barrier = 0, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write},
+     .accesses = access::shader_storage_write, .first_clock = 0},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::waves, .stages = stage::fragment_shader},
+    {.resource = resource::waves, .stages = stage::fragment_shader, .point = 2},
+};
+
+constexpr Index kAliasClocks[] = {
+    0, 3,
 };
 
 constexpr Queue kQueues[] = {
@@ -147,8 +151,9 @@ constexpr Binding kBindings[] = {
 constexpr Plan kPlan =
     {.name = "frame", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues, .batches = kBatches, .steps = kSteps,
      .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires, .releases = kReleases,
-     .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines,
-     .pipeline_shaders = kPipelineShaders, .blends = kBlends, .bindings = kBindings, .estimated_heap_bytes = 65536};
+     .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings, .attachments = kAttachments,
+     .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends, .bindings = kBindings,
+     .estimated_heap_bytes = 65536};
 
 }  // namespace
 

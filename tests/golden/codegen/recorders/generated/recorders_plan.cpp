@@ -61,14 +61,14 @@ constexpr Resource kResources[] = {
      .import_slot = 1, .estimated_bytes = 256, .line = 17, .file = "recorders.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 2, .estimated_bytes = 65536, .line = 24, .file = "recorders.rg"},
-    {.name = "depth", .format = Format{126}, .width = 0, .height = 1, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 65536, .line = 26,
-     .file = "recorders.rg"},
+    {.name = "depth", .format = Format{126}, .width = 0, .height = 1, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 65536,
+     .estimated_alignment = 65536, .line = 26, .file = "recorders.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 22, .copies = 2,
      .init = InitKind::clear, .estimated_bytes = 65536, .line = 27, .file = "recorders.rg"},
     {.name = "bloom", .format = Format{97}, .width = 3, .height = 4, .mips = 3, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
-     .line = 28, .file = "recorders.rg"},
-    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .estimated_bytes = 256, .estimated_offset = 65536,
-     .line = 29, .file = "recorders.rg"},
+     .estimated_alignment = 65536, .line = 28, .file = "recorders.rg"},
+    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
+     .estimated_offset = 65536, .line = 29, .file = "recorders.rg"},
     {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 18, .stride = 4, .estimated_bytes = 256,
      .line = 30, .file = "recorders.rg"},
 };
@@ -256,16 +256,20 @@ constexpr Boundary kExit[] = {
 constexpr Acquire kAcquires[] = {
     {.resource = resource::depth, .group = 1, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write},
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 1, .first_clock = 2},
     {.resource = resource::bloom, .group = 3, .image_barrier = 5, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write},
-    {.resource = resource::table, .group = 0, .stages = stage::copy, .accesses = access::transfer_write},
+     .accesses = access::shader_storage_write, .point = 3, .first_clock = 4},
+    {.resource = resource::table, .group = 0, .stages = stage::copy, .accesses = access::transfer_write, .first_clock = 0},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader},
-    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader},
-    {.resource = resource::table, .stages = stage::vertex_shader},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 3},
+    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 7},
+    {.resource = resource::table, .stages = stage::vertex_shader, .point = 2},
+};
+
+constexpr Index kAliasClocks[] = {
+    0, 8, 1, 8, 3, 8,
 };
 
 constexpr AliasPair kAliasPairs[] = {
@@ -419,11 +423,11 @@ constexpr Transfer kTransfers[] = {
 constexpr Plan kPlan =
     {.name = "frame", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues, .batches = kBatches, .steps = kSteps,
      .groups = kGroups, .image_barriers = kImageBarriers, .buffer_barriers = kBufferBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
-     .releases = kReleases, .alias_pairs = kAliasPairs, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
-     .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
-     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
-     .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .engine_sets = kEngineSets, .conditions = kConditions,
-     .estimated_heap_bytes = 65792};
+     .releases = kReleases, .alias_pairs = kAliasPairs, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses,
+     .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders,
+     .blends = kBlends, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers,
+     .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .engine_sets = kEngineSets,
+     .conditions = kConditions, .estimated_heap_bytes = 65792};
 
 }  // namespace
 

@@ -31,8 +31,8 @@ constexpr Extent kExtents[] = {
 constexpr Resource kResources[] = {
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 0, .estimated_bytes = 65536, .line = 29, .file = "variants.rg"},
-    {.name = "base", .format = Format{83}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536, .line = 31,
-     .file = "variants.rg"},
+    {.name = "base", .format = Format{83}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
+     .estimated_alignment = 65536, .line = 31, .file = "variants.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -86,11 +86,15 @@ constexpr Boundary kExit[] = {
 
 constexpr Acquire kAcquires[] = {
     {.resource = resource::base, .group = 0, .image_barrier = 0, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write},
+     .accesses = access::shader_storage_write, .first_clock = 0},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::base, .stages = stage::fragment_shader},
+    {.resource = resource::base, .stages = stage::fragment_shader, .point = 2},
+};
+
+constexpr Index kAliasClocks[] = {
+    0, 3,
 };
 
 constexpr Queue kQueues[] = {
@@ -147,8 +151,9 @@ constexpr Binding kBindings[] = {
 constexpr Plan kPlan =
     {.name = "second", .variant_name = "bright=off", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues,
      .batches = kBatches, .steps = kSteps, .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
-     .releases = kReleases, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders,
-     .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends, .bindings = kBindings, .estimated_heap_bytes = 65536};
+     .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
+     .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
+     .bindings = kBindings, .estimated_heap_bytes = 65536};
 
 }  // namespace
 

@@ -1,0 +1,154 @@
+#include "compiler/alias_clocks.h"
+
+#include <algorithm>
+#include <map>
+
+#include "compiler/access_table.h"
+#include "dsl/check_macro.h"
+
+namespace rg::compiler {
+namespace {
+
+// For each queue the last point known to have completed, plus one, so that 0 is nothing: of this frame, then of the frame before.
+using Clock = std::vector<Index>;
+
+void join(Clock& into, const Clock& other) {
+  for (size_t i = 0; i < into.size(); ++i) into[i] = std::max(into[i], other[i]);
+}
+
+// What was this frame's becomes the frame before's.
+Clock aged(const Clock& clock) {
+  const size_t queues = clock.size() / 2;
+  Clock result(clock.size());
+  std::copy_n(clock.begin(), queues, result.begin() + static_cast<ptrdiff_t>(queues));
+  return result;
+}
+
+// What a queue has learnt from its waits, by the stages that wait.
+class Knowledge {
+ public:
+  explicit Knowledge(size_t queues) : empty_(2 * queues) {}
+  void learn(Stages stages, const Clock& clock) { join(by_stages_.try_emplace(with_later(stages), empty_).first->second, clock); }
+  // From waits of which `counts` accepts the stages.
+  template <class Counts>
+  Clock gathered(Counts counts) const {
+    Clock result = empty_;
+    for (const auto& [stages, clock] : by_stages_)
+      if (counts(stages)) join(result, clock);
+    return result;
+  }
+  void age() {
+    for (auto& [stages, clock] : by_stages_) clock = aged(clock);
+  }
+
+ private:
+  Clock empty_;
+  std::map<Stages, Clock> by_stages_;
+};
+
+class Finder {
+ public:
+  explicit Finder(PlanData& plan) : plan_(plan), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_) {
+    for (size_t b = 0; b < plan.batches.size(); ++b)
+      if (plan.batches[b].signal_count > 0) batch_of_[plan.batches[b].queue].push_back(b);
+  }
+
+  void run() {
+    number_points();
+    for (const Release& release : plan_.releases) releases_[release.queue].push_back(&release);
+    for (auto& rows : releases_)
+      std::sort(rows.begin(), rows.end(), [](const Release* a, const Release* b) { return a->point < b->point; });
+    // Twice, so that the second frame finds what the first has learnt.
+    std::vector<Knowledge> known(queues_, Knowledge(queues_));
+    signalled_.assign(plan_.batches.size(), Clock(2 * queues_));
+    for (const bool second : {false, true}) walk_frame(known, second);
+  }
+
+ private:
+  void number_points() {
+    std::vector<Index> points(queues_), queue_of_group(plan_.groups.size()), point_of_group(plan_.groups.size());
+    std::vector<std::vector<Index>> last_use(queues_, std::vector<Index>(plan_.resources.size(), kNone));
+    for (const Batch& batch : plan_.batches) {
+      Index& point = points[batch.queue];
+      for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
+        const Step& step = plan_.steps[s];
+        if (step.kind == StepKind::barriers) {
+          queue_of_group[step.index] = batch.queue, point_of_group[step.index] = point++;
+          continue;
+        }
+        const Pass& pass = plan_.passes[step.index];
+        for (Index a = pass.first_access; a < pass.first_access + pass.access_count; ++a) last_use[batch.queue][plan_.accesses[a].ref.resource] = point;
+      }
+      end_of_batch_.push_back(point++);
+      last_point_[batch.queue] = end_of_batch_.back();
+    }
+    for (Release& release : plan_.releases) {
+      release.point = last_use[release.queue][release.resource];
+      RG_CHECK(release.point != kNone, "a release is by a queue that uses the resource");
+    }
+    for (Acquire& acquire : plan_.acquires) acquire.queue = queue_of_group[acquire.group], acquire.point = point_of_group[acquire.group];
+  }
+
+  void walk_frame(std::vector<Knowledge>& known, bool emit) {
+    for (Knowledge& each : known) each.age();
+    std::vector<std::vector<Acquire*>> by_group(plan_.groups.size());
+    for (Acquire& acquire : plan_.acquires) by_group[acquire.group].push_back(&acquire);
+    std::vector<Clock> signalled = signalled_;
+    for (size_t b = 0; b < plan_.batches.size(); ++b) {
+      const Batch& batch = plan_.batches[b];
+      for (Index w = batch.first_wait; w < batch.first_wait + batch.wait_count; ++w) {
+        const Wait& wait = plan_.waits[w];
+        const size_t from = batch_of_[wait.queue][wait.value - 1];
+        known[batch.queue].learn(wait.stages, wait.frames_ago ? aged(signalled_[from]) : signalled[from]);
+      }
+      if (batch.signal_count > 0) signalled[b] = at_signal(b, known[batch.queue]);
+      if (!emit) continue;
+      for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s)
+        if (plan_.steps[s].kind == StepKind::barriers)
+          for (Acquire* acquire : by_group[plan_.steps[s].index]) note(*acquire, known[batch.queue]);
+    }
+    signalled_ = std::move(signalled);
+  }
+
+  Clock at_signal(size_t b, const Knowledge& known) const {
+    const Batch& batch = plan_.batches[b];
+    const Stages stages = with_earlier(plan_.signals[batch.first_signal].stages);
+    Clock clock = known.gathered([&](Stages waited) { return (waited & stages) != 0; });
+    clock[batch.queue] = std::max(clock[batch.queue], covered(batch.queue, end_of_batch_[b], stages) + 1);
+    const Index before = covered(batch.queue, last_point_[batch.queue], stages);
+    clock[queues_ + batch.queue] = std::max(clock[queues_ + batch.queue], before + 1);
+    return clock;
+  }
+
+  // The largest point up to `point` such that all releases before it lie within `stages`.
+  Index covered(Index queue, Index point, Stages stages) const {
+    if (stages & stage::all_commands) return point;
+    for (const Release* release : releases_[queue])
+      if (release->point <= point && (release->stages & ~stages) != 0) return release->point - 1;  // at least one group stands before any user
+    return point;
+  }
+
+  void note(Acquire& acquire, const Knowledge& known) {
+    Clock clock = known.gathered([&](Stages waited) { return (acquire.stages & ~waited) == 0; });
+    clock[acquire.queue] = acquire.point + 1;
+    clock[queues_ + acquire.queue] = last_point_[acquire.queue] + 1;
+    acquire.first_clock = static_cast<Index>(plan_.alias_clocks.size());
+    for (const Index point : clock) plan_.alias_clocks.push_back(point == 0 ? kNone : point - 1);
+  }
+
+  PlanData& plan_;
+  size_t queues_;
+  std::vector<std::vector<const Release*>> releases_;  // by queue, by point
+  std::vector<Index> end_of_batch_, last_point_;       // point by batch, by queue
+  std::vector<std::vector<size_t>> batch_of_;          // by queue: the batch of each signal value, from 1
+  std::vector<Clock> signalled_;                       // by batch: what has completed when its signal has
+};
+
+}  // namespace
+
+void find_alias_clocks(PlanData& plan) {
+  plan.alias_clocks.clear();
+  Finder(plan).run();
+}
+
+}  // namespace rg::compiler

@@ -1,0 +1,232 @@
+#include "compiler/assign_queues.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "compiler/pass_cost.h"
+
+namespace rg::compiler {
+namespace {
+
+constexpr double kThreshold = 0.005;  // of the frame's serial time
+constexpr uint64_t kEffort = 4'000'000;
+
+std::string_view kind_name(dsl::QueueKind kind) {
+  constexpr std::string_view names[] = {"graphics", "compute", "transfer"};
+  return names[static_cast<size_t>(kind)];
+}
+
+// Stages that a queue of the kind has.
+Stages stages_of(dsl::QueueKind kind) {
+  constexpr Stages transfers = stage::copy | stage::clear | stage::all_transfer | stage::host;
+  if (kind == dsl::QueueKind::transfer) return transfers;
+  if (kind == dsl::QueueKind::compute) return transfers | stage::compute_shader | stage::draw_indirect;
+  return ~Stages{0};
+}
+
+bool clears_depth(const Frame& frame, const dsl::Pass& pass) {
+  return std::any_of(pass.accesses.begin(), pass.accesses.end(), [&](const dsl::Access& access) {
+    return access.role == dsl::Role::clear_dst && (frame.cells[frame.grids[access.resource.value].first_cell].range.aspects & ~uint32_t{aspect_color});
+  });
+}
+
+class Eligibility {
+ public:
+  Eligibility(const Frame& frame, const Schedule& one_queue, const PlanOptions& options) : frame_(frame), options_(options), uses_(frame.cells.size()) {
+    for (const uint32_t pass : one_queue.order)
+      for (const Use& use : frame.uses_of(pass)) uses_[use.cell].push_back(&use);
+  }
+
+  // Empty, or why the pass has to stay at home.
+  std::string why_not(uint32_t pass) const {
+    const dsl::Pass& row = frame_.pass(pass);
+    if (options_.keep_home.contains(row.name)) return "kept by `--no-async=" + row.name + "`";
+    if (clears_depth(frame_, row)) return "only a graphics queue clears depth";
+    for (const Use& use : frame_.uses_of(pass)) {
+      const dsl::Resource& resource = frame_.resource_of(use.cell);
+      if (use.effect.stages() & ~stages_of(row.queue)) return fmt::format("a {} queue has not the stages it runs in", kind_name(row.queue));
+      if (use.share != Share::none && sharers(use.cell) > 1) return fmt::format("others share its writes to `{}` without order", resource.name);
+      if (resource.lifetime == dsl::Lifetime::imported && !is_ready(use)) return fmt::format("`{}` is the engine's at the frame's ends", resource.name);
+    }
+    return {};
+  }
+
+ private:
+  size_t sharers(uint32_t cell) const {
+    return static_cast<size_t>(std::count_if(uses_[cell].begin(), uses_[cell].end(), [](const Use* use) { return use->share != Share::none; }));
+  }
+  // Read where it is ready to be read, and written by nobody.
+  bool is_ready(const Use& use) const {
+    const dsl::Resource& resource = frame_.resource_of(use.cell);
+    if (resource.kind == dsl::ResourceKind::image || resource.before.role == dsl::Role::undefined) return false;
+    const Effect before = effect_of(resource.before, 0), after = effect_of(resource.after, 0);
+    const auto& all = uses_[use.cell];
+    if (before.writes || after.writes || std::any_of(all.begin(), all.end(), [](const Use* each) { return each->writes(); })) return false;
+    const bool left_so = resource.after.role == dsl::Role::undefined || (use.effect.stages() & ~with_earlier(after.stages())) == 0;
+    return left_so && (use.effect.reads & ~before.reads) == 0 && (use.effect.read_stages & ~before.read_stages) == 0;
+  }
+
+  const Frame& frame_;
+  const PlanOptions& options_;
+  std::vector<std::vector<const Use*>> uses_;  // by cell, in order
+};
+
+// Uses of one cell that no barrier parts, with the queues they run on.
+struct Run {
+  Layout layout = Layout::undefined;
+  bool writes = false;
+  std::set<uint32_t> queues;
+  std::vector<uint32_t> nodes;
+};
+
+// Finds images whose layout would have to change between two sets of queues, and sends their movable readers home.
+class LayoutGuard {
+ public:
+  LayoutGuard(const Frame& frame, const Schedule& one_queue) : frame_(frame) {
+    std::vector<std::vector<std::pair<uint32_t, const Use*>>> by_cell(frame.cells.size());
+    for (uint32_t node = 0; node < one_queue.order.size(); ++node)
+      for (const Use& use : frame.uses_of(one_queue.order[node])) by_cell[use.cell].push_back({node, &use});
+    for (uint32_t cell = 0; cell < frame.cells.size(); ++cell)
+      if (frame.resource_of(cell).kind == dsl::ResourceKind::image && by_cell[cell].size() > 1) cells_.push_back({cell, std::move(by_cell[cell])});
+  }
+
+  // True if somebody was sent home.
+  bool enforce(QueueOf& queue_of, const std::vector<QueueProblem::Node>& nodes) const {
+    bool changed = false;
+    for (const auto& [cell, uses] : cells_) {
+      const bool across_frames = frame_.resource_of(cell).lifetime != dsl::Lifetime::transient;
+      const std::vector<Run> runs = runs_of(uses, queue_of);
+      for (size_t i = 0; i < runs.size(); ++i) {
+        if (runs[i].queues.size() < 2) continue;
+        const bool from_many = i > 0 && runs[i - 1].queues.size() > 1 && runs[i - 1].layout != runs[i].layout;
+        if (!from_many && !across_frames) continue;
+        for (const uint32_t node : runs[i].nodes)
+          if (nodes[node].away != UINT32_MAX && queue_of[node] != nodes[node].home && nodes[node].home != nodes[node].away)
+            queue_of[node] = nodes[node].home, changed = true;
+      }
+    }
+    return changed;
+  }
+
+ private:
+  static std::vector<Run> runs_of(const std::vector<std::pair<uint32_t, const Use*>>& uses, const QueueOf& queue_of) {
+    std::vector<Run> runs;
+    for (const auto& [node, use] : uses) {
+      if (runs.empty() || use->writes() || runs.back().writes || runs.back().layout != use->effect.layout)
+        runs.push_back({use->effect.layout, use->writes(), {}, {}});
+      runs.back().queues.insert(queue_of[node]), runs.back().nodes.push_back(node);
+    }
+    return runs;
+  }
+
+  struct CellUses {
+    uint32_t cell = 0;
+    std::vector<std::pair<uint32_t, const Use*>> uses;
+  };
+  const Frame& frame_;
+  std::vector<CellUses> cells_;
+};
+
+uint32_t queue_of_kind(const PlanOptions& options, dsl::QueueKind kind) {
+  for (uint32_t q = 0; q < options.queues.size(); ++q)
+    if (options.queues[q] == kind) return q;
+  return UINT32_MAX;
+}
+
+class Assigner {
+ public:
+  Assigner(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs, const PlanOptions& options)
+      : frame_(frame), one_queue_(one_queue), options_(options) {
+    problem_.queues = static_cast<uint32_t>(options.queues.size());
+    problem_.wait = kWaitNs;
+    problem_.window = options.prefer == Prefer::time ? UINT32_MAX : options.prefer == Prefer::memory || options.prefer == Prefer::order ? 8 : 64;
+    std::vector<uint32_t> node_of(frame.passes.size(), UINT32_MAX);
+    for (uint32_t node = 0; node < one_queue.order.size(); ++node) node_of[one_queue.order[node]] = node;
+    for (const uint32_t pass : one_queue.order) problem_.nodes.push_back({costs[pass], 0, UINT32_MAX, 0});
+    for (const Dependency& d : graph.dependencies) {
+      const QueueProblem::Edge edge{node_of[d.before], node_of[d.after]};
+      if (problem_.edges.empty() || problem_.edges.back().before != edge.before || problem_.edges.back().after != edge.after) problem_.edges.push_back(edge);
+    }
+  }
+
+  QueuePlan run() {
+    find_homes();
+    group_neighbours();
+    QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort);
+    const LayoutGuard guard(frame_, one_queue_);
+    for (bool changed = guard.enforce(choice.queue_of, problem_.nodes); changed;) changed = guard.enforce(choice.queue_of, problem_.nodes);
+    plan_.timeline = simulate(problem_, choice.queue_of);
+    plan_.gain = choice.gain, plan_.gain.end = plan_.timeline.end;
+    plan_.simulations = choice.simulations, plan_.complete = choice.complete;
+    explain(choice);
+    plan_.queue_of = std::move(choice.queue_of);
+    return std::move(plan_);
+  }
+
+ private:
+  double total() const {
+    return std::accumulate(problem_.nodes.begin(), problem_.nodes.end(), 0.0, [](double sum, const auto& node) { return sum + node.cost; });
+  }
+
+  void find_homes() {
+    const Eligibility eligibility(frame_, one_queue_, options_);
+    for (uint32_t node = 0; node < problem_.nodes.size(); ++node) {
+      const dsl::Pass& pass = frame_.pass(one_queue_.order[node]);
+      if (pass.queue == dsl::QueueKind::graphics) continue;
+      const uint32_t queue = queue_of_kind(options_, pass.queue);
+      std::string why = queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : eligibility.why_not(one_queue_.order[node]);
+      if (why.empty() && pass.queue_may) problem_.nodes[node].away = queue;
+      if (why.empty() && !pass.queue_may) problem_.nodes[node].home = queue;
+      if (!why.empty()) plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});
+    }
+  }
+
+  // Movable passes that depend on each other.
+  void group_neighbours() {
+    std::vector<uint32_t> root(problem_.nodes.size());
+    std::iota(root.begin(), root.end(), 0u);
+    const auto find = [&](uint32_t node) {
+      while (root[node] != node) node = root[node] = root[root[node]];
+      return node;
+    };
+    for (const auto& edge : problem_.edges)
+      if (problem_.nodes[edge.before].away != UINT32_MAX && problem_.nodes[edge.after].away != UINT32_MAX) root[find(edge.after)] = find(edge.before);
+    std::map<uint32_t, uint32_t> number;
+    for (uint32_t node = 0; node < problem_.nodes.size(); ++node)
+      if (problem_.nodes[node].away != UINT32_MAX)
+        problem_.nodes[node].group = number.try_emplace(find(node), static_cast<uint32_t>(number.size())).first->second;
+    problem_.groups = static_cast<uint32_t>(number.size());
+  }
+
+  void explain(const QueueChoice& choice) {
+    for (uint32_t node = 0; node < problem_.nodes.size(); ++node) {
+      const auto& row = problem_.nodes[node];
+      const uint32_t pass = one_queue_.order[node];
+      if (row.away == UINT32_MAX && row.home == 0) continue;
+      const bool moved = choice.queue_of[node] != 0;
+      std::string reason = row.away == UINT32_MAX ? fmt::format("on queue {} by `queue`", row.home)
+                           : moved ? fmt::format("moved to queue {}: without that the frame would take {:.1f} us longer", row.away, choice.worth[node] / 1000)
+                                   : fmt::format("stays on the first queue: moving it would save {:.1f} us, less than {:.1f}", std::max(0.0, choice.worth[node]) / 1000,
+                                                 kThreshold * total() / 1000);
+      plan_.decisions.push_back({pass, moved, std::move(reason)});
+    }
+  }
+
+  const Frame& frame_;
+  const Schedule& one_queue_;
+  const PlanOptions& options_;
+  QueueProblem problem_;
+  QueuePlan plan_;
+};
+
+}  // namespace
+
+QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs, const PlanOptions& options) {
+  return Assigner(frame, graph, one_queue, costs, options).run();
+}
+
+}  // namespace rg::compiler
