@@ -1,8 +1,9 @@
 // An abstract machine for plans: a GPU whose caches and schedulers do the worst that the plan's barriers allow.
 //
 // Memory maps cells (image aspect x mip piece x layer piece, or a byte interval; one set of cells a physical copy) to versions, 64-bit hashes of
-// who wrote what in which frame. Every (stage, access) pair is an agent with a cache of its own: writes stay dirty until an availability operation
-// names them, old lines stay readable until a visibility operation drops them. A layout transition reads and writes its range.
+// who wrote what in which frame. Every (queue, stage, access) triple is an agent with a cache of its own: writes stay dirty until an availability
+// operation names them, old lines stay readable until a visibility operation drops them. A layout transition reads and writes its range. Queues run
+// freely but for semaphores; what belongs to another queue family is lost.
 //
 //   plan, frames  -> events -> partial order (execution dependencies alone) -> schedules -> found versions
 //   program        -> passes one after the other                             -> expected versions          the two must agree
@@ -33,6 +34,7 @@ struct MachineOptions {
   uint32_t frames = 3;                  // at least; a history n needs n + 2
   std::vector<Placement> placement;     // by plan resource; empty: nothing is aliased. Its hand-offs are patched into the plan.
   std::vector<int64_t> extents;         // 3 values an extent; empty: the initial ones
+  bool united = false;                  // the device has one queue family: releases are not recorded, acquires are plain barriers
   std::vector<uint64_t> conditions;     // by frame, the last one repeats: bits by dsl::ConditionId; empty: none hold
   size_t exhaustive_commands = 5;       // plans of at most so many passes and barrier groups also run one frame in all orders ...
   size_t exhaustive_schedules = 20000;  // ... until so many were tried

@@ -39,15 +39,52 @@ struct Execution {
 
   void store(const Dirty& write) const { store_in(memory, cells, write); }
 
+  // ---- ownership ----
+
+  bool owns(uint32_t cell) const {
+    if (event.family == kNone || event.takes) return true;
+    return memory.released_by[cell] == kNone && (memory.owners[cell] == kNone || memory.owners[cell] == event.family);
+  }
+  void take(uint32_t cell) const {
+    if (event.family == kNone) return;
+    memory.owners[cell] = event.family;
+    memory.released_by[cell] = kNone;
+  }
+  bool matches(const Event& release) const {
+    return release.queue == event.other_queue && release.other_queue == event.queue && release.cells == event.cells &&
+           release.old_layout == event.old_layout && release.new_layout == event.new_layout;
+  }
+  void lose(uint32_t cell) const { store({index, cell, {version::foreign, 0}}); }
+
+  void change_owner(uint32_t cell) const {
+    if (event.half == Half::none) {
+      const bool transition = event.image && event.old_layout != event.new_layout;
+      if (!transition || event.family == kNone) return;
+      if (event.old_layout != Layout::undefined && !owns(cell)) lose(cell);
+      return take(cell);
+    }
+    if (event.half == Half::release) {
+      if (!owns(cell)) lose(cell);
+      memory.released_by[cell] = index;
+      return;
+    }
+    const uint32_t release = memory.released_by[cell];
+    if (release == kNone || !matches(timeline.events[release])) lose(cell);
+    take(cell);
+  }
+
   // ---- accesses ----
 
   Version find(uint32_t cell) const {
     if (event.lost) return {version::poison, 0};
+    if (!owns(cell)) return {version::foreign, 0};
     if (!in_layout(cell)) return {version::wrong_layout, 0};
     return hoards && !event.through_semaphore ? line(event.agent, cell).version : memory.contents[cell];
   }
 
   void read() const {
+    if (event.takes)
+      for (const uint32_t cell : event.cells) take(cell);
     if (event.through_semaphore) write_back(memory, cells, index);
     for (size_t k = 0; k < event.cells.size(); ++k) {
       const uint32_t cell = event.cells[k];
@@ -77,6 +114,7 @@ struct Execution {
     const auto spoil = [&](uint64_t base) { write.version = {base, 0}, write.shares = false; };
     if (event.lost) spoil(version::poison);
     if (!in_layout(cell)) spoil(version::wrong_layout);
+    if (!owns(cell)) spoil(version::foreign);
     if (hoards && races(cell)) spoil(version::torn);
     return write;
   }
@@ -84,6 +122,7 @@ struct Execution {
   void write() const {
     for (size_t k = 0; k < event.cells.size(); ++k) {
       const Dirty write = result_for(k);
+      if (owns(event.cells[k])) take(event.cells[k]);
       if (!hoards) {
         store(write);
         continue;
@@ -98,6 +137,7 @@ struct Execution {
   void bring() const {
     for (size_t k = 0; k < event.cells.size(); ++k) {
       const uint32_t cell = event.cells[k];
+      take(cell);
       memory.layouts[cell] = layout_of_aspect(event.layout, cells.aspect_of[cell]);
       const Dirty write{index, cell, event.result[k], 0, false};
       if (event.pending && hoards) {
@@ -122,7 +162,7 @@ struct Execution {
     for (const Dirty& write : memory.dirty) {
       const Event& writer = timeline.events[write.event];
       const bool earlier = write.event < index && writer.queue == event.queue;
-      if (earlier && ((event.src_agents >> writer.agent) & 1) && covers(write.cell))
+      if (earlier && event.src_agents[writer.agent] && covers(write.cell))
         store(write);
       else
         kept.push_back(write);
@@ -146,18 +186,18 @@ struct Execution {
     layout = raced ? kTornLayout : to;
   }
 
-  void drop_lines(AgentSet agents, uint32_t cell) const {
-    for (uint32_t agent = 0; agents >> agent; ++agent) {
-      if ((agents >> agent) & 1) line(agent, cell) = {memory.contents[cell], memory.stores[cell]};
-      if (agent == 63) break;
-    }
+  void drop_lines(const AgentSet& agents, uint32_t cell) const {
+    for (uint32_t agent = 0; agent < timeline.agents.size(); ++agent)
+      if (agents[agent]) line(agent, cell) = {memory.contents[cell], memory.stores[cell]};
   }
 
   void synchronise() const {
     if (hoards) make_available();
-    if (event.image)
+    for (const uint32_t cell : event.cells) change_owner(cell);
+    // A transfer changes the layout once, between its halves.
+    if (event.image && event.half != Half::release)
       for (const uint32_t cell : event.cells) change_layout(cell);
-    if (!hoards || event.dst_agents == 0) return;
+    if (!hoards || event.dst_agents.none()) return;
     if (event.resource == kNone)
       for (uint32_t cell = 0; cell < cells.count; ++cell) drop_lines(event.dst_agents, cell);
     for (const uint32_t cell : event.cells) drop_lines(event.dst_agents, cell);
@@ -173,6 +213,8 @@ Memory initial_memory(const Subject& subject, const Timeline& timeline) {
   memory.stores.assign(subject.cells.count, 0);
   memory.seen_by.assign(subject.cells.count, kNone);
   memory.shared.assign(subject.cells.count, false);
+  memory.owners.assign(subject.cells.count, kNone);
+  memory.released_by.assign(subject.cells.count, kNone);
   for (uint32_t r = 0; r < subject.cells.resources.size(); ++r) {
     const ResourceCells& resource = subject.cells.resources[r];
     for (uint32_t copy = 0; copy < resource.copies; ++copy)
@@ -181,6 +223,7 @@ Memory initial_memory(const Subject& subject, const Timeline& timeline) {
           memory.contents[physical_cell(resource, piece, 0, copy)] = subject.reference.initial[r][piece];
   }
   for (const auto& [cell, layout] : timeline.initial_layouts) memory.layouts[cell] = layout_of_aspect(layout, subject.cells.aspect_of[cell]);
+  for (const auto& [cell, family] : timeline.initial_owners) memory.owners[cell] = family;
   for (size_t agent = 0; agent < timeline.agents.size(); ++agent)
     for (const Version& version : memory.contents) memory.lines.push_back({version, 0});
   return memory;

@@ -17,7 +17,7 @@ bool ordered_in_group(const Event& a, const Event& b) { return a.resource == kNo
 bool precedes(const Event& a, const Event& b, bool same_group) {
   if (a.queue != b.queue) return false;
   const bool from_barrier = a.kind == EventKind::barrier, to_barrier = b.kind == EventKind::barrier;
-  if (from_barrier && to_barrier) return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0;
+  if (from_barrier && to_barrier) return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0 || (b.all_commands && (a.image || a.half != Half::none));
   if (from_barrier) return b.stages != 0 && within(b.stages, a.dst);
   if (to_barrier) return within(a.stages, b.src);
   return a.pass != kNone && a.pass == b.pass && a.frame == b.frame && ordered_in_pass(a, b);
@@ -32,7 +32,7 @@ Predecessors find_order(const Timeline& timeline) {
     predecessors[b] = later.after;
     for (uint32_t a = 0; a < b; ++a) {
       const Event& earlier = timeline.events[a];
-      const bool same_group = earlier.frame == later.frame && earlier.group == later.group;
+      const bool same_group = earlier.frame == later.frame && earlier.group == later.group && earlier.queue == later.queue;
       if (later.after_all || earlier.before_all || precedes(earlier, later, same_group)) predecessors[b].push_back(a);
     }
   }

@@ -115,6 +115,8 @@ std::string Reference::name(Version version) const {
       return "poison";
     case version::torn:
       return "two unordered writes";
+    case version::foreign:
+      return "contents of another queue family";
     case version::wrong_layout:
       return "contents in the wrong layout";
     case version::partial:

@@ -16,7 +16,7 @@ struct Version {
 };
 
 namespace version {  // contents that no pass wrote
-inline constexpr uint64_t undefined = 0, poison = 1, torn = 2, wrong_layout = 3, partial = 4;
+inline constexpr uint64_t undefined = 0, poison = 1, torn = 2, wrong_layout = 3, partial = 4, foreign = 5;
 }
 
 // Of one access in one frame, by piece of its region.

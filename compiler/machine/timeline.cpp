@@ -25,19 +25,21 @@ struct Unroller {
   std::vector<std::vector<uint32_t>> left_by = {};  // by program resource: events of the engine after the last frame
   struct Signalled {
     Index queue;
+    uint32_t frame;
     uint64_t value;
     uint32_t event;
   };
-  std::vector<Signalled> signals = {};  // of this frame
+  std::vector<Signalled> signals = {};    // of all frames
+  std::vector<bool> begun = {};           // by program resource: used in this frame
 
   const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
   const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
 
   uint32_t agent(Stages stage, Accesses access) {
-    const auto found = std::find(out.agents.begin(), out.agents.end(), Agent{stage, access});
+    const auto found = std::find(out.agents.begin(), out.agents.end(), Agent{queue, stage, access});
     if (found != out.agents.end()) return static_cast<uint32_t>(found - out.agents.begin());
-    out.agents.push_back({stage, access});
-    RG_CHECK(out.agents.size() <= 64, "at most 64 pairs of stage and access");
+    out.agents.push_back({queue, stage, access});
+    RG_CHECK(out.agents.size() <= kMaxAgents, "too many queues, stages and accesses");
     return static_cast<uint32_t>(out.agents.size() - 1);
   }
 
@@ -65,7 +67,14 @@ struct Unroller {
     event.partial = touch.partial;
     event.agent = agent(touch.stage, touch.access);
     event.image = row(resource).kind == dsl::ResourceKind::image;
+    event.family = family(resource, queue);
     return event;
+  }
+
+  // kNone: shared by all families, or there is but one.
+  uint32_t family(uint32_t resource, Index on) const {
+    if (in.options.united || on >= in.plan.queues.size()) return kNone;
+    return in.plan.resources[cells_of(resource).plan_resource].concurrent ? kNone : static_cast<uint32_t>(in.plan.queues[on].kind);
   }
 
   // ---- passes ----
@@ -156,8 +165,15 @@ struct Unroller {
   void add_pass(Index index) {
     const Pass& pass = in.plan.passes[index];
     if (!plan_runs(pass)) return;
-    const uint32_t accesses = static_cast<uint32_t>(in.graph.passes.rows[in.program_pass[index]].accesses.size());
-    for (uint32_t i = 0; i < accesses; ++i) add_access(pass, index, i);
+    const std::vector<dsl::Access>& accesses = in.graph.passes.rows[in.program_pass[index]].accesses;
+    const size_t first = out.events.size();
+    for (uint32_t i = 0; i < accesses.size(); ++i) add_access(pass, index, i);
+    // Contents of transient buffers start with the frame's first pass; nothing marks that in the plan.
+    for (size_t e = first; e < out.events.size(); ++e) out.events[e].takes = begins(out.events[e].resource);
+    for (const dsl::Access& access : accesses) begun[access.resource.value] = true;
+  }
+  bool begins(uint32_t resource) const {
+    return !begun[resource] && row(resource).lifetime == dsl::Lifetime::transient && row(resource).kind == dsl::ResourceKind::buffer;
   }
 
   // ---- synchronisation ----
@@ -182,38 +198,60 @@ struct Unroller {
     return event;
   }
 
+  // False if the barrier is not recorded.
+  template <class Barrier>
+  bool take_half(const Barrier& barrier, Event& event) const {
+    if (barrier.src_queue == barrier.dst_queue) return true;
+    const bool release = barrier.src_queue == queue;
+    const bool one_family = in.options.united || in.plan.queues[barrier.src_queue].kind == in.plan.queues[barrier.dst_queue].kind;
+    if (one_family) return !release;
+    event.half = release ? Half::release : Half::acquire;
+    event.other_queue = release ? barrier.dst_queue : barrier.src_queue;
+    return true;
+  }
+
+  template <class Barrier>
+  void add_ranged(const Barrier& barrier, Index group, uint32_t resource, std::vector<uint32_t> cells, Layout from, Layout to) {
+    Event event = barrier_event(barrier, group, "`" + row(resource).name + "`");
+    event.resource = resource;
+    event.image = row(resource).kind == dsl::ResourceKind::image;
+    event.cells = std::move(cells);
+    event.old_layout = from, event.new_layout = to;
+    event.family = family(resource, queue);
+    if (take_half(barrier, event)) add(std::move(event));
+  }
+
   void add_group(Index index) {
     const BarrierGroup& group = in.plan.groups[index];
     for (const MemoryBarrier& barrier : in.plan.memory_barriers.subspan(group.first_memory, group.memory_count))
       add(barrier_event(barrier, index, "all memory"));
     for (const BufferBarrier& barrier : in.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
       const uint32_t resource = in.program_resource[barrier.buffer.resource];
-      Event event = barrier_event(barrier, index, "`" + row(resource).name + "`");
-      event.resource = resource;
-      event.cells = physical(resource, region_of(in.plan, in.cells, cells_of(resource), barrier.bytes), barrier.buffer.age);
-      add(std::move(event));
+      add_ranged(barrier, index, resource, physical(resource, region_of(in.plan, in.cells, cells_of(resource), barrier.bytes), barrier.buffer.age),
+                 Layout::undefined, Layout::undefined);
     }
     for (const ImageBarrier& barrier : in.plan.image_barriers.subspan(group.first_image, group.image_count)) {
       const uint32_t resource = in.program_resource[barrier.image.resource];
-      Event event = barrier_event(barrier, index, "`" + row(resource).name + "`");
-      event.resource = resource;
-      event.image = true;
-      event.cells = physical(resource, region_of(cells_of(resource), barrier.range), barrier.image.age);
-      event.old_layout = barrier.old_layout;
-      event.new_layout = barrier.new_layout;
-      add(std::move(event));
+      add_ranged(barrier, index, resource, physical(resource, region_of(cells_of(resource), barrier.range), barrier.image.age), barrier.old_layout,
+                 barrier.new_layout);
     }
   }
 
   void add_wait(const Wait& wait) {
+    if (wait.frames_ago > frame) return;  // there was no such frame
     Event event = scope_event(fmt::format("wait for queue {} in frame {}", wait.queue, frame), 0, 0, wait.stages, kEverything);
     for (const Signalled& signal : signals)
-      if (signal.queue == wait.queue && signal.value <= wait.value) event.after.push_back(signal.event);
+      if (signal.queue == wait.queue && signal.frame == frame - wait.frames_ago && signal.value == wait.value) event.after.push_back(signal.event);
     add(std::move(event));
   }
+  // Signals of one queue follow each other.
   void add_signal(const Signal& signal) {
-    add(scope_event(fmt::format("signal of queue {} in frame {}", queue, frame), signal.stages, kEverything, 0, 0));
-    signals.push_back({queue, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
+    Event event = scope_event(fmt::format("signal of queue {} in frame {}", queue, frame), signal.stages, kEverything, 0, 0);
+    event.all_commands = (signal.stages & stage::all_commands) != 0;
+    for (const Signalled& earlier : signals)
+      if (earlier.queue == queue) event.after.push_back(earlier.event);
+    add(std::move(event));
+    signals.push_back({queue, frame, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
   }
 
   void add_batch(const Batch& batch) {
@@ -242,6 +280,8 @@ struct Unroller {
 
   void bring(uint32_t resource) {
     const dsl::BoundaryState& before = row(resource).before;
+    const Index named = boundary_queue(in.plan.entry, resource);
+    queue = named == kNone ? 0 : named;
     Event event;
     event.kind = EventKind::bring;
     event.label = fmt::format("the engine brings `{}` in frame {}", row(resource).name, frame);
@@ -255,14 +295,19 @@ struct Unroller {
     for (const Touch& touch : touches_of(before)) {
       event.stages |= touch.stage;
       event.agent = agent(touch.stage, touch.access);
-      event.dst_agents |= AgentSet{1} << event.agent;
+      event.dst_agents.set(event.agent);
     }
+    event.family = family(resource, named);
     if (event.stages == 0) event.stages = boundary_stages(resource);
+    event.before_all = event.before_all || event.stages == 0;  // nothing to wait for: the engine was done before
     if (!row(resource).is_surface) event.after = left_by[resource];  // the next frame gets another image
     add(std::move(event));
+    queue = 0;
   }
 
   void leave(uint32_t resource) {
+    const Index named = boundary_queue(in.plan.exit, resource);
+    queue = named == kNone ? 0 : named;
     left_by[resource].clear();
     const bool readback = row(resource).lifetime == dsl::Lifetime::readback;
     const dsl::BoundaryState after = readback ? dsl::BoundaryState{dsl::Role::host_read, 0, false} : row(resource).after;
@@ -272,6 +317,7 @@ struct Unroller {
     for (const Touch& touch : touches) {
       Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0),
                                 readback ? "the host" : "the engine");
+      event.family = family(resource, named);
       event.through_semaphore = present;
       event.after_all = present || readback;
       event.layout = boundary_layout(in.plan.exit, resource, after.role);
@@ -279,10 +325,18 @@ struct Unroller {
       add(std::move(event));
       left_by[resource].push_back(static_cast<uint32_t>(out.events.size() - 1));
     }
+    queue = 0;
+  }
+
+  // Where the plan expects and leaves what the engine brings.
+  Index boundary_queue(std::span<const Boundary> boundaries, uint32_t resource) const {
+    for (const Boundary& boundary : boundaries)
+      if (in.program_resource[boundary.ref.resource] == resource && boundary.queue < in.plan.queues.size()) return boundary.queue;
+    return kNone;
   }
 
   void add_frame() {
-    signals.clear();
+    begun.assign(in.graph.resources.size(), false);
     for (uint32_t i = 0; i < in.graph.resources.size(); ++i)
       if (row(i).lifetime == dsl::Lifetime::imported && cells_of(i).exists && (frame == 0 || changes_outside(in.graph, i))) bring(i);
     for (const Batch& batch : in.plan.batches) add_batch(batch);
@@ -293,18 +347,21 @@ struct Unroller {
   void find_agents(Event& event) const {
     for (uint32_t i = 0; i < out.agents.size(); ++i) {
       const Agent& agent = out.agents[i];
-      if ((agent.stage & event.src_exact) && (agent.access & event.src_accesses)) event.src_agents |= AgentSet{1} << i;
-      if ((agent.stage & event.dst_exact) && (agent.access & event.dst_accesses)) event.dst_agents |= AgentSet{1} << i;
+      if (agent.queue != event.queue) continue;
+      if ((agent.stage & event.src_exact) && (agent.access & event.src_accesses)) event.src_agents.set(i);
+      if ((agent.stage & event.dst_exact) && (agent.access & event.dst_accesses)) event.dst_agents.set(i);
     }
   }
 
-  void initial_layouts() {
+  void initial_states() {
     frame = 0;
     for (const Boundary& boundary : in.plan.entry) {
       const uint32_t resource = in.program_resource[boundary.ref.resource];
-      if (row(resource).kind != dsl::ResourceKind::image) continue;
-      for (const uint32_t cell : physical(resource, region_of(cells_of(resource), boundary.range), boundary.ref.age))
-        out.initial_layouts.push_back({cell, boundary.layout});
+      const std::vector<uint32_t> cells = physical(resource, region_of(in.plan, in.cells, cells_of(resource), boundary), boundary.ref.age);
+      for (const uint32_t cell : cells) {
+        if (row(resource).kind == dsl::ResourceKind::image) out.initial_layouts.push_back({cell, boundary.layout});
+        if (!boundary.discard && boundary.queue != kNone) out.initial_owners.push_back({cell, family(resource, boundary.queue)});
+      }
     }
   }
 };
@@ -315,7 +372,7 @@ Timeline unroll(const Subject& subject) {
   Unroller unroller{subject};
   unroller.left_by.resize(subject.graph.resources.size());
   for (; unroller.frame < subject.options.frames; ++unroller.frame) unroller.add_frame();
-  unroller.initial_layouts();
+  unroller.initial_states();
   for (Event& event : unroller.out.events)
     if (event.kind == EventKind::barrier) unroller.find_agents(event);
   return std::move(unroller.out);

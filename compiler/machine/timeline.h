@@ -4,6 +4,7 @@
 // engine does to imported resources before and after a frame. Events of two passes are ordered by nothing but barriers and semaphores.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,7 +15,11 @@
 
 namespace rg::machine {
 
-using AgentSet = uint64_t;  // bits of Timeline::agents
+constexpr size_t kMaxAgents = 256;
+using AgentSet = std::bitset<kMaxAgents>;  // of Timeline::agents
+
+// Which half of a transfer between queue families a barrier is.
+enum class Half : uint8_t { none, release, acquire };
 
 enum class EventKind : uint8_t { read, write, barrier, bring };
 
@@ -31,6 +36,12 @@ struct Event {
   std::vector<uint32_t> after;  // besides: events that precede in any case
   bool after_all = false;       // fence or binary semaphore: all earlier events precede
   bool before_all = false;      // done before the first frame was submitted
+  bool all_commands = false;    // a signal that also follows what barriers do of themselves
+  // Ownership.
+  uint32_t family = kNone;       // of the queue, where the resource belongs to one family at a time
+  bool takes = false;            // contents start with this event, whoever had the resource before
+  Half half = Half::none;
+  uint32_t other_queue = kNone;  // of a transfer
   // Accesses.
   uint32_t agent = kNone;
   Layout layout = Layout::undefined;  // required; images only
@@ -51,6 +62,7 @@ struct Event {
 };
 
 struct Agent {
+  uint32_t queue = 0;
   Stages stage = 0;
   Accesses access = 0;
   friend bool operator==(const Agent&, const Agent&) = default;
@@ -59,7 +71,8 @@ struct Agent {
 struct Timeline {
   std::vector<Event> events;  // in submission order
   std::vector<Agent> agents;
-  std::vector<std::pair<uint32_t, Layout>> initial_layouts;  // physical cell
+  std::vector<std::pair<uint32_t, Layout>> initial_layouts;   // physical cell
+  std::vector<std::pair<uint32_t, uint32_t>> initial_owners;  // physical cell, family
 };
 
 inline constexpr Layout kUnusable = static_cast<Layout>(UINT32_MAX);  // of an access the plan does not list, or lists in a layout its role forbids

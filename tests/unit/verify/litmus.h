@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "compiler/machine/machine.h"
 #include "tests/unit/verify/builder.h"
 
 namespace rg::verify {
@@ -17,12 +19,31 @@ struct Litmus {
   void (*build)(Builder&);
 };
 
+// What the abstract machine says of the case.
+inline std::string run_machine(Builder& b) {
+  std::string found;
+  machine::MachineOptions options;
+  const auto& rows = b.graph().resources.rows;
+  // What comes in free of any access is free once.
+  if (std::any_of(rows.begin(), rows.end(), [](const dsl::Resource& row) { return row.lifetime == dsl::Lifetime::imported; })) options.frames = 1;
+  for (const bool united : {false, true}) {
+    options.united = united;
+    for (const machine::Divergence& each :
+         machine::run_adversarially(b.program, dsl::GraphId{size_t{0}}, b.configuration, b.view(), b.plan.program_pass, b.plan.program_resource, options))
+      found += "\n  " + machine::text(each);
+  }
+  return found;
+}
+
 inline void decide(const Litmus& litmus) {
   Builder b;
   litmus.build(b);
   std::string found;
   for (const Finding& finding : b.check()) found += "\n  " + finding.text;
   EXPECT_EQ(b.hazards(), litmus.expected) << litmus.rule << found;
+  const std::string diverges = run_machine(b);
+  printf("MACHINE %s %s\n", litmus.name, litmus.expected.empty() ? (diverges.empty() ? "agree-ok" : "EXTRA") : (diverges.empty() ? "blind" : "agree-bad"));
+  if (litmus.expected.empty() && !diverges.empty()) printf("%s\n", diverges.c_str());
 }
 
 inline std::string litmus_name(const ::testing::TestParamInfo<Litmus>& info) { return info.param.name; }
