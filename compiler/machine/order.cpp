@@ -32,7 +32,7 @@ Predecessors find_order(const Timeline& timeline) {
     predecessors[b] = later.after;
     for (uint32_t a = 0; a < b; ++a) {
       const Event& earlier = timeline.events[a];
-      const bool same_group = earlier.frame == later.frame && earlier.group == later.group && earlier.queue == later.queue;
+      const bool same_group = earlier.group != kNone && earlier.frame == later.frame && earlier.group == later.group;
       if (later.after_all || earlier.before_all || precedes(earlier, later, same_group)) predecessors[b].push_back(a);
     }
   }

@@ -15,7 +15,4 @@ namespace rg::verify {
 std::vector<bool> may_share(const Plan& plan);
 
 void check_aliases(const Model& model, const SyncResult& sync, Report& report);
-// Release bits that no last user needs.
-void check_release_redundancy(const Model& model, const SyncResult& sync, Report& report);
-
 }  // namespace rg::verify

@@ -58,11 +58,11 @@ void add_set(const Replay& replay, const std::vector<Record>& records, Fingerpri
   for (const uint64_t value : prints) print.add(value);
 }
 
-uint64_t print_of(const Replay& replay, const CellState& state) {
+uint64_t print_of(const Replay& replay, const CellState& state, bool exclusive) {
   Fingerprint print;
   add_set(replay, state.reads, print);
   add_set(replay, state.writes, print);
-  for (const uint64_t value : {uint64_t{static_cast<uint32_t>(state.layout)}, uint64_t{state.owner}, uint64_t{state.released_by}}) print.add(value);
+  for (const uint64_t value : {uint64_t{static_cast<uint32_t>(state.layout)}, uint64_t{exclusive ? state.owner : kNone}, uint64_t{state.released_by}}) print.add(value);
   return print.value();
 }
 
@@ -77,7 +77,7 @@ FrameEnd end_of_frame(const Replay& replay) {
     if (lifetime == dsl::Lifetime::imported || lifetime == dsl::Lifetime::readback || replay.result.first_use[r] == kNone) continue;
     for (uint32_t age = 0; age < node.copies; ++age)
       for (uint32_t c = 0; c < node.partition.cell_count(); ++c)
-        end[replay.at_frame_zero(r, age, c)] = print_of(replay, replay.cells[replay.physical(r, age, c)]);
+        end[replay.at_frame_zero(r, age, c)] = print_of(replay, replay.cells[replay.physical(r, age, c)], replay.model.is_exclusive(r));
   }
   return end;
 }

@@ -203,8 +203,7 @@ void add_batch(Model& model, const Extents& extents, uint32_t index) {
 // Memory changes hands in the group of the new owner's acquire. Images are rewritten by their transition; buffers are noted here.
 void note_hand_overs(Model& model) {
   const Plan& plan = model.input->plan;
-  std::vector<bool> takes = may_share(plan);
-  for (const AliasPair& pair : plan.alias_pairs) takes[pair.after] = true;
+  const std::vector<bool> takes = may_share(plan);
   std::vector<std::vector<uint32_t>> by_group(plan.groups.size());
   for (uint32_t i = 0; i < plan.acquires.size(); ++i) {
     const Acquire& acquire = plan.acquires[i];

@@ -49,7 +49,7 @@ void check_redundancy(const Model& model, const std::vector<bool>& required, Rep
       report_atom(model, scope, " can be removed", report);
       continue;
     }
-    if (scope.kind == ScopeKind::wait && !required[atom_of(id, AtomField::value)])
+    if (scope.kind == ScopeKind::wait && scope.value > 1 && !required[atom_of(id, AtomField::value)])
       report_atom(model, scope, ": it could wait for value " + std::to_string(scope.value - 1), report);
     const Mask masks[] = {{AtomField::src_stage, scope.raw_src, "source stage", true},
                           {AtomField::src_access, scope.raw_src_accesses, "source access", false},

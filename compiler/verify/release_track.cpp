@@ -39,10 +39,31 @@ void visit_cells(Replay& replay, uint32_t plan_resource, auto visit) {
   }
 }
 
-void mark_released(Replay& replay, const Release& release) {
+// Bits without which the release does not wait for the record.
+template <class Record>
+void need_bits(const Release& release, const Record& record, Release& needed) {
+  for (Stages rest = release.stages; rest != 0; rest &= rest - 1) {
+    Release less = release;
+    less.stages &= ~(rest & ~(rest - 1));
+    if (!waits_for(less, record)) needed.stages |= rest & ~(rest - 1);
+  }
+  for (Accesses rest = release.accesses; rest != 0; rest &= rest - 1) {
+    Release less = release;
+    less.accesses &= ~(rest & ~(rest - 1));
+    if (!waits_for(less, record)) needed.accesses |= rest & ~(rest - 1);
+  }
+}
+
+void mark_released(Replay& replay, ReleaseTrack& track, uint32_t index) {
+  const Release& release = plan_of(replay).releases[index];
+  const auto mark = [&](auto& record) {
+    if (!waits_for(release, record)) return;
+    record.released = true;
+    if (replay.history.proofs) need_bits(release, record, track.needed[index]);
+  };
   visit_cells(replay, release.resource, [&](CellState& state) {
-    for (ReadRecord& read : state.reads) read.released = read.released || waits_for(release, read);
-    for (WriteRecord& write : state.writes) write.released = write.released || waits_for(release, write);
+    for (ReadRecord& read : state.reads) mark(read);
+    for (WriteRecord& write : state.writes) mark(write);
   });
 }
 
@@ -141,6 +162,7 @@ ReleaseTrack make_release_track(const Model& model) {
     if (plan.acquires[i].group != kNone && plan.acquires[i].first_clock != kNone) track.acquires_of_group[plan.acquires[i].group].push_back(i);
   track.now.resize(model.queue_count);
   track.gives = may_share(plan);
+  track.needed.resize(plan.releases.size());
   return track;
 }
 
@@ -157,7 +179,7 @@ void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group) {
   const uint32_t point = track.points[group.queue];
   if (point < track.at_point[group.queue].size())
     for (const uint32_t index : track.at_point[group.queue][point]) {
-      mark_released(replay, plan_of(replay).releases[index]);
+      mark_released(replay, track, index);
       if (replay.model.queue_count > 1) track.now[group.queue].push_back(follow(replay, index));
     }
   ++track.points[group.queue];
@@ -165,7 +187,7 @@ void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group) {
   for (const uint32_t index : track.acquires_of_group[group.plan_group]) {
     const Acquire& acquire = plan_of(replay).acquires[index];
     if (acquire.queue != group.queue || acquire.point != point) report_alias(replay, acquire.resource, "its acquire names another queue or point than its group has");
-    if (replay.model.queue_count > 1 && acquire.queue == group.queue) check_clock(replay, track, acquire);
+    if (acquire.queue == group.queue) check_clock(replay, track, acquire);
   }
 }
 
@@ -179,6 +201,17 @@ void end_frame(Replay& replay, const ReleaseTrack& track) {
       for (const WriteRecord& write : state.writes)
         if (!write.released) report_alias(replay, p, "no release waits for the write by " + who(replay, write) + " and makes it available");
     });
+  }
+}
+
+void check_release_redundancy(const Model& model, const std::vector<Release>& needed, Report& report) {
+  for (size_t i = 0; i < needed.size(); ++i) {
+    const Release& release = model.input->plan.releases[i];
+    const std::string name(model.input->plan.resources[release.resource].name);
+    const StageSet stages = expand_stages(release.stages & ~needed[i].stages);
+    if (stages) report.add({Hazard::redundant, name, "", "", "release of `" + name + "`: " + stages_text(stages) + " can be removed"});
+    if (release.accesses & ~needed[i].accesses)
+      report.add({Hazard::redundant, name, "", "", "release of `" + name + "`: accesses can be removed that are no writes of its last users"});
   }
 }
 

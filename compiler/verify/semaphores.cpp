@@ -37,9 +37,10 @@ Alternatives source_of_wait(const History& history, const Executed& executed, ui
   const Proof* now = signalled_by(reach, wait.other, number);
   if (!now) return source;
   source.proof = *now;
-  if (first || !history.proofs) return source;
+  if (!history.proofs) return source;
   Proof value{atom_of(id, AtomField::value)};
-  if (const Proof* before = signalled_by(reach, wait.other, number - 1)) intersect(value, *before);
+  const Proof* before = first ? nullptr : signalled_by(reach, wait.other, number - 1);
+  if (before) intersect(value, *before);
   source.proof = unite(*source.proof, value);
   return source;
 }

@@ -74,9 +74,6 @@ void check_refs(const Input& input, Bounds& bounds) {
                   "an acquire has no clock");
   for (const Release& release : plan.releases)
     bounds.expect(release.resource < plan.resources.size() && release.queue < plan.queues.size(), "a release names no resource or queue");
-  for (const AliasPair& pair : plan.alias_pairs)
-    bounds.expect(pair.before < plan.resources.size() && pair.after < plan.resources.size() && pair.before != pair.after,
-                  "an alias pair names no two resources");
 }
 
 // Byte ranges may name expressions.

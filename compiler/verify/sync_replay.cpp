@@ -382,26 +382,12 @@ void enter(Replay& replay, const std::vector<Pending>& entry) {
 void find_uses(Replay& replay) {
   SyncResult& result = replay.result;
   result.first_use.assign(replay.model.resources.size(), kNone);
-  result.last_use.assign(replay.model.resources.size(), kNone);
   replay.used.assign(replay.model.cell_count, false);
   for (uint32_t s = 0; s < replay.model.steps.size(); ++s) {
     if (!replay.model.steps[s].is_pass) continue;
     for (const Use& use : replay.model.passes[replay.model.steps[s].index].uses) {
       for (const uint32_t cell : use.cells) replay.used[replay.model.cell(use.resource, 0, cell)] = true;
       if (result.first_use[use.resource] == kNone) result.first_use[use.resource] = s;
-      result.last_use[use.resource] = s;
-    }
-  }
-}
-
-// Transients whose last user is the step: their states as the next owner of the memory finds them.
-void keep_last_states(Replay& replay, uint32_t step) {
-  for (const Use& use : replay.model.passes[replay.model.steps[step].index].uses) {
-    if (replay.result.last_use[use.resource] != step) continue;
-    const ResourceNode& node = replay.model.resources[use.resource];
-    for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
-      advance(replay.history, replay.cells[i]);
-      replay.result.last[i] = frozen(replay.cells[i]);
     }
   }
 }
@@ -414,7 +400,6 @@ void run_frame(Replay& replay) {
       continue;
     }
     run_pass(replay, step.index);
-    if (replay.frame == 0) keep_last_states(replay, s);
   }
 }
 
@@ -423,7 +408,6 @@ void run_frame(Replay& replay) {
 SyncResult replay_sync(const Model& model, bool proofs, Report& report) {
   Replay replay(model, report, proofs);
   replay.cells.resize(model.cell_count);
-  replay.result.last.resize(model.cell_count);
   if (proofs) replay.result.required.assign(static_cast<size_t>(atom_of(static_cast<uint32_t>(model.scopes.size()), AtomField::whole)), false);
   find_uses(replay);
   const std::vector<Pending> entry = pending_of(model, model.entry), exit = pending_of(model, model.exit);
@@ -436,7 +420,9 @@ SyncResult replay_sync(const Model& model, bool proofs, Report& report) {
     end_frame(replay, replay.releases);
     leave(replay, exit);
     before = std::move(now), now = end_of_frame(replay);
-    if (replay.frame + 1 >= least && before == now) return std::move(replay.result);
+    if (replay.frame + 1 < least || before != now) continue;
+    if (proofs && replay.releases.active) replay.result.needed = std::move(replay.releases.needed);
+    return std::move(replay.result);
   }
   if (!report.full())
     report.add({Hazard::boundary_mismatch, "", "", "", "frame after frame leaves another state behind: the proof does not close"});

@@ -13,8 +13,8 @@ namespace rg::verify {
 
 struct SyncResult {
   std::vector<bool> required;                 // by Atom: some necessary fact has no proof without it; empty unless asked for
-  std::vector<CellState> last;                // by cell of Model, when the resource's last user of the first frame has run
-  std::vector<uint32_t> first_use, last_use;  // by program resource: positions in Model::steps; kNone: unused
+  std::vector<Release> needed;      // by release of the plan, see ReleaseTrack::needed; empty unless asked for
+  std::vector<uint32_t> first_use;  // by program resource: position in Model::steps; kNone: unused
 };
 
 SyncResult replay_sync(const Model& model, bool proofs, Report& report);

@@ -188,12 +188,6 @@ ReadRecord make_read(History& history, Site site, uint32_t pass, uint32_t frame,
   return {queue, stage, pass, frame, order, false, newest};
 }
 
-CellState frozen(const CellState& state) {
-  CellState copy = state;
-  for (ReadRecord& read : copy.reads) read.fate = std::make_shared<ReadFate>(*read.fate);
-  return copy;
-}
-
 WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id) {
   WriteRecord write(scope.queue);
   write.scope = scope_id;

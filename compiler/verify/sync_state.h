@@ -117,8 +117,6 @@ struct History {
   explicit History(const Model& m, bool with_proofs = false);
 };
 ReadRecord make_read(History& history, Site site, uint32_t pass, uint32_t frame, uint64_t order);
-// As it is now, whatever comes.
-CellState frozen(const CellState& state);
 
 // Counted through all frames: the signals of a frame come after those of the frame before; number 0 is the last one before frame 0.
 int64_t number_of(const Model& model, const Scope& signal, uint32_t frame);

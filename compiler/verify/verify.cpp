@@ -8,6 +8,7 @@
 #include "compiler/verify/contents.h"
 #include "compiler/verify/model.h"
 #include "compiler/verify/redundancy.h"
+#include "compiler/verify/release_track.h"
 #include "compiler/verify/report.h"
 #include "compiler/verify/structure.h"
 #include "compiler/verify/submission.h"
@@ -60,7 +61,7 @@ void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<
   // Redundancy of a plan that is wrong means nothing.
   if (!options.irredundancy || !report.empty()) return;
   check_redundancy(model, sync.required, report);
-  check_release_redundancy(model, sync, report);
+  check_release_redundancy(model, sync.needed, report);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ struct Spot {
 
 class Generator {
  public:
-  Generator(uint64_t seed, const RandomShape& shape) : random_(seed), shape_(shape) {}
+  Generator(uint64_t seed, const RandomShape& shape) : random_(seed), queues_(seed ^ 0x51ED270Bu), shape_(shape) {}
 
   Program make() {
     declare();
@@ -228,8 +228,18 @@ class Generator {
     const uint32_t kind = below(6);
     const bool made = kind < 3 ? add_compute() : kind < 5 ? add_raster() : add_transfer();
     if (!made) return;
+    choose_queue();
     if (one_in(10) && graph_.passes.size() > 0) pass_.after.push_back(PassId{size_t{below(static_cast<uint32_t>(graph_.passes.size()))}});
     graph_.passes.add(pass_);
+  }
+
+  // Orders and permissions; what a transfer queue cannot do stays away from it.
+  void choose_queue() {
+    const auto chance = [&](uint32_t n) { return queues_() % n == 0; };
+    if (pass_.kind == PassKind::raster || chance(2)) return;
+    const bool clears_image = std::any_of(pass_.accesses.begin(), pass_.accesses.end(), [](const Access& a) { return a.role == Role::clear_dst; });
+    pass_.queue = pass_.kind == PassKind::transfer && !clears_image && chance(2) ? QueueKind::transfer : QueueKind::compute;
+    pass_.queue_may = !chance(3);
   }
 
   bool add_compute() {
@@ -348,7 +358,7 @@ class Generator {
     graph_.passes.add(pass_);
   }
 
-  std::mt19937_64 random_;
+  std::mt19937_64 random_, queues_;
   RandomShape shape_;
   Program program_;
   Graph graph_;

@@ -12,7 +12,7 @@ struct RandomShape {
   uint32_t conditions = 2;
 };
 // One graph with a surface, transients with mips, layers and depth, histories, persistent and imported resources, read-backs; compute, raster and
-// transfer passes, conditional ones, atomics, `disjoint` writers, `after`. The same seed gives the same program.
+// transfer passes, conditional ones, atomics, `disjoint` writers, `after`, orders and permissions of queues. The same seed gives the same program.
 dsl::Program make_random_program(uint64_t seed, const RandomShape& shape);
 
 }  // namespace rg::verify
