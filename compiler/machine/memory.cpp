@@ -75,10 +75,19 @@ struct Execution {
 
   // ---- accesses ----
 
+  // Draws of one rendering find what earlier draws left, caches or not.
+  const Dirty* written_in_rendering(uint32_t cell) const {
+    for (size_t i = memory.dirty.size(); i-- > 0 && event.rendering != 0;)
+      if (memory.dirty[i].cell == cell && in_this_pass(memory.dirty[i].event) && timeline.events[memory.dirty[i].event].pass != event.pass)
+        return &memory.dirty[i];
+    return nullptr;
+  }
+
   Version find(uint32_t cell) const {
     if (event.lost) return {version::poison, 0};
     if (!owns(cell)) return {version::foreign, 0};
     if (!in_layout(cell)) return {version::wrong_layout, 0};
+    if (const Dirty* own = written_in_rendering(cell)) return own->version;
     return hoards && !event.through_semaphore ? line(event.agent, cell).version : memory.contents[cell];
   }
 
@@ -96,7 +105,10 @@ struct Execution {
     }
   }
 
-  bool in_this_pass(uint32_t other) const { return timeline.events[other].pass == event.pass && timeline.events[other].frame == event.frame; }
+  bool in_this_pass(uint32_t other) const {
+    const Event& e = timeline.events[other];
+    return e.frame == event.frame && (e.pass == event.pass || (event.rendering != 0 && e.rendering == event.rendering));
+  }
 
   // Two writes may land in any order unless the first was made available, and made visible to the second or seen by another pass.
   bool races(uint32_t cell) const {

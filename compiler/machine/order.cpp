@@ -20,6 +20,8 @@ bool precedes(const Event& a, const Event& b, bool same_group) {
   if (from_barrier && to_barrier) return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0 || (b.all_commands && (a.image || a.half != Half::none));
   if (from_barrier) return b.stages != 0 && within(b.stages, a.dst);
   if (to_barrier) return within(a.stages, b.src);
+  // Attachment work of one rendering happens in rasterization order.
+  if (a.rendering != 0 && a.rendering == b.rendering && a.frame == b.frame && a.pass != b.pass) return true;
   return a.pass != kNone && a.pass == b.pass && a.frame == b.frame && ordered_in_pass(a, b);
 }
 

@@ -22,6 +22,8 @@ struct Unroller {
   const Subject& in;
   Timeline out = {};
   uint32_t frame = 0, queue = 0;
+  bool first_in_rendering = true, last_in_rendering = true;
+  uint32_t renderings = 0;  // begun
   std::vector<std::vector<uint32_t>> left_by = {};  // by program resource: events of the engine after the last frame
   struct Signalled {
     Index queue;
@@ -153,8 +155,9 @@ struct Unroller {
       event.pass = index;
       event.layout = layout;
       event.shares = commutes(access);
-      event.lost = attachment && drops_before(source, access, *attachment);
-      if (attachment && touch.writes) event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
+      event.rendering = attachment ? renderings : 0;
+      event.lost = attachment && first_in_rendering && drops_before(source, access, *attachment);
+      if (attachment && touch.writes && last_in_rendering) event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
       event.expected = effects.empty() ? std::vector<Version>(cells.size()) : effects[number].before;
       event.result = effects.empty() ? std::vector<Version>(cells.size(), {version::poison, 0}) : effects[number].after;
       if (touch.partial) event.result.assign(cells.size(), {version::partial, 0});
@@ -254,11 +257,23 @@ struct Unroller {
     signals.push_back({queue, frame, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
   }
 
+  // Passes that follow each other with one rendering and no barrier between them are one rendering: it loads before the first and stores after the last.
+  bool same_rendering(const Batch& batch, Index step, Index other) const {
+    if (other < batch.first_step || other >= batch.first_step + batch.step_count) return false;
+    const Step &a = in.plan.steps[step], &b = in.plan.steps[other];
+    if (a.kind != StepKind::pass || b.kind != StepKind::pass) return false;
+    return in.plan.passes[a.index].rendering != kNone && in.plan.passes[a.index].rendering == in.plan.passes[b.index].rendering;
+  }
+
   void add_batch(const Batch& batch) {
     queue = batch.queue;
     for (const Wait& wait : in.plan.waits.subspan(batch.first_wait, batch.wait_count)) add_wait(wait);
-    for (const Step& step : in.plan.steps.subspan(batch.first_step, batch.step_count))
+    for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
+      const Step& step = in.plan.steps[s];
+      first_in_rendering = !same_rendering(batch, s, s - 1), last_in_rendering = !same_rendering(batch, s, s + 1);
+      if (first_in_rendering) ++renderings;
       step.kind == StepKind::pass ? add_pass(step.index) : add_group(step.index);
+    }
     for (const Signal& signal : in.plan.signals.subspan(batch.first_signal, batch.signal_count)) add_signal(signal);
     queue = 0;
   }

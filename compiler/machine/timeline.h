@@ -34,6 +34,7 @@ struct Event {
   Stages stages = 0;            // of an access
   Stages src = 0, dst = 0;      // of a barrier, logically earlier and later stages included
   std::vector<uint32_t> after;  // besides: events that precede in any case
+  uint32_t rendering = 0;       // of attachment work: a number of its own for each rendering begun
   bool after_all = false;       // fence or binary semaphore: all earlier events precede
   bool before_all = false;      // done before the first frame was submitted
   bool all_commands = false;    // a signal that also follows what barriers do of themselves

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compiler/verify/alias.h"
+
 namespace rg::verify {
 namespace {
 
@@ -47,7 +49,6 @@ class Mutator {
     for (Index i = 0; i + 1 < plan_.steps.size(); ++i) order(i);
     for (Index i = 0; i + 1 < plan_.acquires.size(); ++i) placement(i);
     for (Index i = 0; i < plan_.acquires.size(); ++i) acquire(i);
-    for (Index i = 0; i < plan_.alias_pairs.size(); ++i) pair(i);
     return std::move(report_);
   }
 
@@ -207,8 +208,7 @@ class Mutator {
 
   void release(Index at) {
     const std::string what = "release of " + std::string(plan_.resources[plan_.releases[at].resource].name);
-    const bool can_hand_on = std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(),
-                                         [&](const AliasPair& pair) { return pair.before == plan_.releases[at].resource; });
+    const bool can_hand_on = may_share(plan_)[plan_.releases[at].resource];
     const std::string harmless = can_hand_on ? "" : "release that nobody may take over";
     // One of several stages may be ordered before every possible taker by the frame's own barriers.
     const Stages stages = plan_.releases[at].stages;
@@ -220,24 +220,10 @@ class Mutator {
   // Of buffers; an image's own barrier says what its acquire says.
   void acquire(Index at) {
     const Acquire& row = plan_.acquires[at];
-    const bool takes_over =
-        std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(), [&](const AliasPair& p) { return p.after == row.resource; });
-    if (!takes_over || plan_.resources[row.resource].kind == ResourceKind::image) return;
+    if (!may_share(plan_)[row.resource] || plan_.resources[row.resource].kind == ResourceKind::image) return;
     const std::string what = "acquire of " + std::string(plan_.resources[row.resource].name);
     clear_bits(&Plan::acquires, at, &Acquire::stages, what + ", stages", {});
     clear_bits(&Plan::acquires, at, &Acquire::accesses, what + ", accesses", {});
-  }
-
-  // Of places that meet; without any other pair the plan merely allows less.
-  void pair(Index at) {
-    const AliasPair& row = plan_.alias_pairs[at];
-    const Resource &a = plan_.resources[row.before], &b = plan_.resources[row.after];
-    if (a.estimated_offset >= b.estimated_offset + b.estimated_bytes || b.estimated_offset >= a.estimated_offset + a.estimated_bytes) return;
-    std::vector<AliasPair> pairs(plan_.alias_pairs.begin(), plan_.alias_pairs.end());
-    pairs.erase(pairs.begin() + at);
-    Plan mutant = plan_;
-    mutant.alias_pairs = pairs;
-    judge(mutant, "pair " + std::string(a.name) + ", " + std::string(b.name) + " removed", {});
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------
@@ -283,18 +269,12 @@ class Mutator {
 
   // ---- placement ------------------------------------------------------------------------------------------------------------
 
-  bool may_share(Index a, Index b) const {
-    return std::any_of(plan_.alias_pairs.begin(), plan_.alias_pairs.end(),
-                       [&](const AliasPair& pair) { return (pair.before == a && pair.after == b) || (pair.before == b && pair.after == a); });
-  }
-
   void placement(Index at) {
     const Index a = plan_.acquires[at].resource, b = plan_.acquires[at + 1].resource;
-    if (may_share(a, b)) return;
     const uint64_t offset = plan_.resources[b].estimated_offset;
     change(
         &Plan::resources, a, [&](Resource& resource) { resource.estimated_offset = offset; },
-        std::string(plan_.resources[a].name) + " placed on " + std::string(plan_.resources[b].name));
+        std::string(plan_.resources[a].name) + " placed on " + std::string(plan_.resources[b].name), "places that may meet");
   }
 
   const dsl::Program& program_;

@@ -39,19 +39,17 @@ void visit_cells(Replay& replay, uint32_t plan_resource, auto visit) {
   }
 }
 
-// Bits without which the release does not wait for the record.
-template <class Record>
-void need_bits(const Release& release, const Record& record, Release& needed) {
-  for (Stages rest = release.stages; rest != 0; rest &= rest - 1) {
-    Release less = release;
-    less.stages &= ~(rest & ~(rest - 1));
-    if (!waits_for(less, record)) needed.stages |= rest & ~(rest - 1);
-  }
-  for (Accesses rest = release.accesses; rest != 0; rest &= rest - 1) {
-    Release less = release;
-    less.accesses &= ~(rest & ~(rest - 1));
-    if (!waits_for(less, record)) needed.accesses |= rest & ~(rest - 1);
-  }
+// Bits that wait for the record by themselves. Another may do so as well: a hand-off joins the states of all last users, and is tagged for it.
+void use_bits(const Release& release, const auto& record, Release& used) {
+  const auto waits = [&](Stages stages, Accesses accesses) {
+    Release only = release;
+    only.stages = stages, only.accesses = accesses;
+    return waits_for(only, record);
+  };
+  for (Stages rest = release.stages; rest != 0; rest &= rest - 1)
+    if (waits(rest & ~(rest - 1), release.accesses)) used.stages |= rest & ~(rest - 1);
+  for (Accesses rest = release.accesses; rest != 0; rest &= rest - 1)
+    if (waits(release.stages, rest & ~(rest - 1)) && !waits(release.stages, 0)) used.accesses |= rest & ~(rest - 1);
 }
 
 void mark_released(Replay& replay, ReleaseTrack& track, uint32_t index) {
@@ -59,7 +57,7 @@ void mark_released(Replay& replay, ReleaseTrack& track, uint32_t index) {
   const auto mark = [&](auto& record) {
     if (!waits_for(release, record)) return;
     record.released = true;
-    if (replay.history.proofs) need_bits(release, record, track.needed[index]);
+    if (replay.history.proofs) use_bits(release, record, track.used[index]);
   };
   visit_cells(replay, release.resource, [&](CellState& state) {
     for (ReadRecord& read : state.reads) mark(read);
@@ -162,7 +160,7 @@ ReleaseTrack make_release_track(const Model& model) {
     if (plan.acquires[i].group != kNone && plan.acquires[i].first_clock != kNone) track.acquires_of_group[plan.acquires[i].group].push_back(i);
   track.now.resize(model.queue_count);
   track.gives = may_share(plan);
-  track.needed.resize(plan.releases.size());
+  track.used.resize(plan.releases.size());
   return track;
 }
 
@@ -204,13 +202,13 @@ void end_frame(Replay& replay, const ReleaseTrack& track) {
   }
 }
 
-void check_release_redundancy(const Model& model, const std::vector<Release>& needed, Report& report) {
-  for (size_t i = 0; i < needed.size(); ++i) {
+void check_release_redundancy(const Model& model, const std::vector<Release>& used, Report& report) {
+  for (size_t i = 0; i < used.size(); ++i) {
     const Release& release = model.input->plan.releases[i];
     const std::string name(model.input->plan.resources[release.resource].name);
-    const StageSet stages = expand_stages(release.stages & ~needed[i].stages);
+    const StageSet stages = expand_stages(release.stages & ~used[i].stages);
     if (stages) report.add({Hazard::redundant, name, "", "", "release of `" + name + "`: " + stages_text(stages) + " can be removed"});
-    if (release.accesses & ~needed[i].accesses)
+    if (release.accesses & ~used[i].accesses)
       report.add({Hazard::redundant, name, "", "", "release of `" + name + "`: accesses can be removed that are no writes of its last users"});
   }
 }

@@ -34,7 +34,7 @@ struct ReleaseTrack {
   std::vector<uint32_t> points;                                      // by queue: how many of this frame have passed
   std::vector<FollowedQueue> now, before;                            // by queue: of this frame and of the one before
   std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> over;  // (before, of queue, at queue, first scope): so many are over
-  std::vector<Release> needed;                                       // by release: bits without which it does not wait for something
+  std::vector<Release> used;                                         // by release: bits that wait for something
   std::vector<bool> gives;                                           // by plan resource: its memory may be given away
 };
 ReleaseTrack make_release_track(const Model& model);
@@ -45,7 +45,7 @@ void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group);
 // All records of memory that may be given away have met a release that waits for them.
 void end_frame(Replay& replay, const ReleaseTrack& track);
 
-// Bits of releases that wait for nothing that the others do not. `needed` as ReleaseTrack kept it.
-void check_release_redundancy(const Model& model, const std::vector<Release>& needed, Report& report);
+// Bits of releases that wait for nothing. `used` as ReleaseTrack kept it.
+void check_release_redundancy(const Model& model, const std::vector<Release>& used, Report& report);
 
 }  // namespace rg::verify

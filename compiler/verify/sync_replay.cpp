@@ -421,7 +421,7 @@ SyncResult replay_sync(const Model& model, bool proofs, Report& report) {
     leave(replay, exit);
     before = std::move(now), now = end_of_frame(replay);
     if (replay.frame + 1 < least || before != now) continue;
-    if (proofs && replay.releases.active) replay.result.needed = std::move(replay.releases.needed);
+    if (proofs && replay.releases.active) replay.result.released = std::move(replay.releases.used);
     return std::move(replay.result);
   }
   if (!report.full())

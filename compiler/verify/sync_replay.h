@@ -13,7 +13,7 @@ namespace rg::verify {
 
 struct SyncResult {
   std::vector<bool> required;                 // by Atom: some necessary fact has no proof without it; empty unless asked for
-  std::vector<Release> needed;      // by release of the plan, see ReleaseTrack::needed; empty unless asked for
+  std::vector<Release> released;    // by release of the plan: bits in use; empty unless asked for
   std::vector<uint32_t> first_use;  // by program resource: position in Model::steps; kNone: unused
 };
 

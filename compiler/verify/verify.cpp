@@ -61,7 +61,7 @@ void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<
   // Redundancy of a plan that is wrong means nothing.
   if (!options.irredundancy || !report.empty()) return;
   check_redundancy(model, sync.required, report);
-  check_release_redundancy(model, sync.needed, report);
+  check_release_redundancy(model, sync.released, report);
 }
 
 }  // namespace

@@ -21,10 +21,12 @@ dsl::ResourceId output(Builder& b, const std::string& name) {
 
 void barrier(Builder& b, Accesses to = kRead) { b.memory(kCs, kWrite, kCs, to); }
 
-// A transient whose memory is handed on: its last users, and the group it is acquired in.
-void hand_over(Builder& b, dsl::ResourceId id, Index group, Stages stages, Accesses accesses, Stages last, Accesses unavailable) {
-  b.plan.acquires.push_back({id.value, group, kNone, 0, stages, accesses});
-  b.plan.releases.push_back({id.value, last, unavailable});
+// A transient whose memory is handed on: the group it is acquired in, and the point before which its last users stand.
+void hand_over(Builder& b, dsl::ResourceId id, Index group, Stages stages, Accesses accesses, Index point, Stages last, Accesses unavailable) {
+  const auto clocks = static_cast<Index>(b.plan.alias_clocks.size());
+  b.plan.acquires.push_back({id.value, group, kNone, 0, stages, accesses, 0, group, clocks});
+  b.plan.releases.push_back({id.value, last, unavailable, 0, point});
+  b.plan.alias_clocks.insert(b.plan.alias_clocks.end(), {group, static_cast<Index>(b.plan.groups.size())});
 }
 
 // a (written, read), then c (written, read) in the same memory.
@@ -47,9 +49,8 @@ Pair aliased_pair(Builder& b) {
   b.compute("wc", {writes(c)});
   barrier(b);
   b.compute("rc", {reads(c), updates(out)});
-  hand_over(b, a, 0, kCs, kWrite, kCs, 0);
-  hand_over(b, c, 2, kCs, kWrite, kCs, 0);
-  b.plan.alias_pairs = {{a.value, c.value, false}, {c.value, a.value, true}};
+  hand_over(b, a, 0, kCs, kWrite, 2, kCs, 0);
+  hand_over(b, c, 2, kCs, kWrite, 4, kCs, 0);
   return {a, c};
 }
 
@@ -321,7 +322,7 @@ const Litmus kCases[] = {
      {"alias race"},
      [](Builder& b) {
        aliased_pair(b);
-       b.plan.acquires[1].group = 1;
+       b.plan.acquires[1].group = b.plan.acquires[1].point = 1;
      }},
     {"AcquireTooNarrow",
      "Memory aliasing: the hand-over's second scope covers the first users",
@@ -330,20 +331,33 @@ const Litmus kCases[] = {
        aliased_pair(b);
        b.plan.acquires[1].stages = st::fragment_shader;
      }},
-    {"SharedWithoutPair",
-     "Only allowed pairs share bytes",
+    {"SharedWithoutClock",
+     "Memory aliasing: bytes are shared only where one resource is known to be over before the other begins",
      {"alias race"},
      [](Builder& b) {
        aliased_pair(b);
-       b.plan.alias_pairs.pop_back();
+       b.plan.alias_clocks[1] = kNone;
+     }},
+    {"ClockRunsAhead",
+     "Memory aliasing: what comes after the acquire is not over before it",
+     {"alias race"},
+     [](Builder& b) {
+       aliased_pair(b);
+       b.plan.alias_clocks[0] = 3;
+     }},
+    {"UserAfterRelease",
+     "Memory aliasing: a dependency from every user, those after the release's point as well",
+     {"alias race"},
+     [](Builder& b) {
+       aliased_pair(b);
+       b.plan.releases[0].point = 1;
      }},
     {"ImportedMemoryShared",
      "Only transients share memory",
      {"alias race"},
      [](Builder& b) {
        aliased_pair(b);
-       b.plan.alias_pairs.push_back({0, 2, false});
-       b.plan.acquires.push_back({2, 1, kNone, 0, kCs, kWrite});
+       hand_over(b, dsl::ResourceId{size_t{2}}, 1, kCs, kWrite, 4, kCs, kWrite);
      }},
     {"ImageOverBuffer",
      "Memory aliasing: an image takes over with a transition from UNDEFINED in the hand-over's group",
@@ -360,10 +374,9 @@ const Litmus kCases[] = {
        b.compute("wa", {writes(a)});
        b.image_barrier(c, Layout::undefined, Layout::general, kCs, kWrite, kCs, kWrite);
        b.compute("wc", {writes(c)});
-       hand_over(b, a, 0, kCs, kWrite, kCs, kWrite);
-       hand_over(b, c, 1, kCs, kWrite, kCs, kWrite);
+       hand_over(b, a, 0, kCs, kWrite, 1, kCs, kWrite);
+       hand_over(b, c, 1, kCs, kWrite, 2, kCs, kWrite);
        b.plan.acquires[1].image_barrier = 0, b.plan.acquires[1].image_barriers = 1;
-       b.plan.alias_pairs = {{a.value, c.value, false}, {c.value, a.value, true}};
      }},
     {"ImageOverBufferElsewhere",
      "Memory aliasing: the transition must stand where memory changes hands",
@@ -381,10 +394,9 @@ const Litmus kCases[] = {
        b.compute("w0", {writes(c).mip(0)});
        b.image_barrier(c, Layout::undefined, Layout::general, kCs, kWrite, kCs, kWrite, {aspect_color, 1, 1, 0, 1});
        b.compute("w1", {writes(c).mip(1)});
-       hand_over(b, a, 0, kCs, kWrite, kCs, kWrite);
-       hand_over(b, c, 1, kCs, kWrite, kCs, kWrite);
+       hand_over(b, a, 0, kCs, kWrite, 1, kCs, kWrite);
+       hand_over(b, c, 1, kCs, kWrite, 3, kCs, kWrite);
        b.plan.acquires[1].image_barrier = 0, b.plan.acquires[1].image_barriers = 1;
-       b.plan.alias_pairs = {{a.value, c.value, false}, {c.value, a.value, true}};
      }},
 };
 

@@ -61,6 +61,34 @@ dsl::ResourceId moved_image(Builder& b, Layout given = Layout::general, Layout t
   return x;
 }
 
+// `a` on the compute queue, then `c` on the graphics queue in the same memory, and `a` again in the next frame.
+void shared_memory(Builder& b, Stages signal = kCs, Stages wait = kCs, bool waits_for_frame_before = true) {
+  b.queue(QueueKind::compute);
+  const auto a = shared(b, "a"), c = shared(b, "c");
+  for (const auto id : {a, c}) {
+    b.lifetime(id, dsl::Lifetime::transient);
+    const Boundary at = state(id == a ? kCompute : kGraphics, kCs, kWrite);
+    b.boundary(id, at, at);
+    b.plan.entry.back().discard = b.plan.exit.back().discard = true;
+    b.planned(id).estimated_bytes = 1024;
+  }
+  b.batch(kCompute);
+  if (waits_for_frame_before) b.wait(kGraphics, 1, kCs, 1);
+  b.memory(kCs, kWrite, kCs, kWrite);
+  b.compute("wa", {writes(a)});
+  b.signal(signal);
+  b.batch(kGraphics);
+  b.wait(kCompute, 1, wait);
+  b.memory(kCs, kWrite, kCs, kWrite);
+  b.compute("wc", {writes(c)});
+  b.signal(kAll);
+  end_on(b, kCompute);
+  // Points: queue 1 has its group and two ends of batches, queue 0 its group and one end.
+  b.plan.acquires = {{a.value, 0, kNone, 0, kCs, kWrite, kCompute, 0, 0}, {c.value, 1, kNone, 0, kCs, kWrite, kGraphics, 0, 4}};
+  b.plan.releases = {{a.value, kCs, kWrite, kCompute, 1}, {c.value, kCs, kWrite, kGraphics, 1}};
+  b.plan.alias_clocks = {kNone, 0, 1, 2, 0, 1, 1, 1};
+}
+
 const Litmus kCases[] = {
     {"SignalThenWait",
      "Semaphore signal makes all memory accesses of its first scope available; wait makes them visible to its second",
@@ -656,6 +684,30 @@ const Litmus kCases[] = {
        end_on(b, kCompute);
        std::swap(b.plan.steps[1], b.plan.steps[2]);
        for (dsl::Pass& pass : b.graph().passes.rows) pass.queue = dsl::QueueKind::compute, pass.queue_may = true;
+     }},
+    {"MemoryTakenOverAcrossQueues",
+     "Memory aliasing: a semaphore orders the users of one resource before those of the other",
+     {},
+     [](Builder& b) { shared_memory(b); }},
+    {"ClockWithoutWait",
+     "Memory aliasing: nothing orders the frame before on the other queue",
+     {"alias race"},
+     [](Builder& b) { shared_memory(b, kCs, kCs, false); }},
+    {"ClockThroughAnotherStage",
+     "Memory aliasing: the signal does not hold the stage in which the last user works",
+     {"alias race"},
+     [](Builder& b) { shared_memory(b, stage::copy, kCs); }},
+    {"ClockThroughAnotherWait",
+     "Memory aliasing: the wait does not hold back the stages of the first user",
+     {"alias race"},
+     [](Builder& b) { shared_memory(b, kCs, stage::copy); }},
+    {"ClockOfTheWrongPoint",
+     "Memory aliasing: a release after the point that is waited for is not over",
+     {"alias race"},
+     [](Builder& b) {
+       shared_memory(b);
+       b.plan.releases[0].point = 2;
+       b.plan.alias_clocks[5] = 2;
      }},
     {"DeclaredOrderAcrossQueues",
      "`after` orders passes on different queues only through a semaphore",
