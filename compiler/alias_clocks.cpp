@@ -112,19 +112,32 @@ class Finder {
 
   Clock at_signal(size_t b, const Knowledge& known) const {
     const Batch& batch = plan_.batches[b];
-    const Stages stages = with_earlier(plan_.signals[batch.first_signal].stages);
-    Clock clock = known.gathered([&](Stages waited) { return (waited & stages) != 0; });
-    clock[batch.queue] = std::max(clock[batch.queue], covered(batch.queue, end_of_batch_[b], stages) + 1);
-    const Index before = covered(batch.queue, last_point_[batch.queue], stages);
-    clock[queues_ + batch.queue] = std::max(clock[queues_ + batch.queue], before + 1);
+    const Stages stages = plan_.signals[batch.first_signal].stages;
+    Clock clock = known.gathered([&](Stages waited) { return (waited & stages) != 0 || (stages & stage::all_commands) != 0; });
+    clock[batch.queue] = std::max(clock[batch.queue], covered(b) + 1);
+    clock[queues_ + batch.queue] = last_point_[batch.queue] + 1;  // the frame before ended with a signal of everything
     return clock;
   }
 
-  // The largest point up to `point` such that all releases before it lie within `stages`.
-  Index covered(Index queue, Index point, Stages stages) const {
-    if (stages & stage::all_commands) return point;
-    for (const Release* release : releases_[queue])
-      if (release->point <= point && (release->stages & ~stages) != 0) return release->point - 1;  // at least one group stands before any user
+  // The largest point up to the end of batch `b` such that its signal, or an earlier one of the queue, covers all releases before it. Writes become
+  // available only in stages that a signal names.
+  Index covered(size_t b) const {
+    const Batch& batch = plan_.batches[b];
+    Index point = end_of_batch_[b];
+    const std::vector<const Release*>& releases = releases_[batch.queue];
+    size_t next = releases.size();
+    Stages stages = 0;  // of the signals from here on
+    const std::vector<size_t>& signals = batch_of_[batch.queue];
+    for (size_t s = plan_.signals[batch.first_signal].value; s-- > 0;) {
+      stages |= plan_.signals[plan_.batches[signals[s]].first_signal].stages;
+      const Index begin = s == 0 ? 0 : end_of_batch_[signals[s - 1]] + 1;  // releases since the signal before
+      if (stages & stage::all_commands) return point;
+      for (; next > 0 && releases[next - 1]->point >= begin; --next) {
+        const Release& release = *releases[next - 1];
+        if (release.point > end_of_batch_[b]) continue;
+        if ((release.stages & ~(release.accesses ? stages : with_earlier(stages))) != 0) point = release.point - 1;  // a group stands before any user
+      }
+    }
     return point;
   }
 

@@ -12,8 +12,8 @@
 namespace rg::compiler {
 namespace {
 
-constexpr double kThreshold = 0.005;  // of the frame's serial time
-constexpr uint64_t kEffort = 4'000'000;
+constexpr double kThreshold = 0.005;  // of the frame's serial time: less is not worth a second queue
+constexpr uint64_t kEffort = 5'000'000;
 
 std::string_view kind_name(dsl::QueueKind kind) {
   constexpr std::string_view names[] = {"graphics", "compute", "transfer"};
@@ -210,8 +210,8 @@ class Assigner {
       const bool moved = choice.queue_of[node] != 0;
       std::string reason = row.away == UINT32_MAX ? fmt::format("on queue {} by `queue`", row.home)
                            : moved ? fmt::format("moved to queue {}: without that the frame would take {:.1f} us longer", row.away, choice.worth[node] / 1000)
-                                   : fmt::format("stays on the first queue: moving it would save {:.1f} us, less than {:.1f}", std::max(0.0, choice.worth[node]) / 1000,
-                                                 kThreshold * total() / 1000);
+                                   : fmt::format("stays on the first queue: moving it would save {:.1f} us, less than a wait and a tenth of its own time",
+                                                 std::max(0.0, choice.worth[node]) / 1000);
       plan_.decisions.push_back({pass, moved, std::move(reason)});
     }
   }

@@ -10,11 +10,12 @@ namespace {
 auto meaning(const Frame& frame, const CellBarrier& b) {
   const Cell& cell = frame.cells[b.cell];
   return std::tuple(cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout, b.new_layout,
-                    b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign);
+                    b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign, b.after_wait);
 }
 
 void absorb(CellBarrier& into, CellBarrier& other) {
   into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end());
+  into.targets.insert(into.targets.end(), other.targets.begin(), other.targets.end());
   into.first_use = std::min(into.first_use, other.first_use);
 }
 

@@ -50,8 +50,8 @@ MemoryPlan place_transients(PlanData& plan) {
 }
 
 void list_alias_pairs(PlanData& plan) {
-  plan.alias_by_lifetime = plan.acquires.size() > kMostListed;
-  if (plan.alias_by_lifetime) return;
+  plan.alias_by_lifetime = plan.queues.size() == 1 && plan.acquires.size() > kMostListed;
+  if (plan.alias_by_lifetime || plan.queues.size() > 1) return;
   const Plan view = plan.view();
   const alias::Sharing sharing(view);
   for (const Acquire& after : plan.acquires)

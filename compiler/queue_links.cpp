@@ -83,14 +83,16 @@ class Crosser {
   void reach(uint32_t queue, bool changes, bool transfers) {
     const Side own = on_queue(frame_, cell_, from_, queue), mine = on_queue(frame_, cell_, to_, queue);
     const uint32_t segment = acquire_ != UINT32_MAX ? acquire_ : first_segment(mine);
-    const bool waits = wait_for_others(queue, segment, mine.effect.stages());
+    // Where a barrier gathers the users, one of their stages is enough for the wait.
+    const Stages earliest = earliest_stages(mine.effect.stages());
+    const Stages waiting = changes || transfers ? earliest & ~(earliest - 1) : mine.effect.stages();
+    const bool waits = wait_for_others(queue, segment, waiting, changes || transfers);
     CellBarrier b = connect(frame_, options_, cell_, own, mine);
     if (changes || transfers) {
       b.old_layout = whole_.old_layout, b.new_layout = whole_.new_layout;
-      b.src_stages = own.effect.stages() | (waits ? mine.effect.stages() : 0), b.src_accesses = own.effect.writes;
+      b.src_stages = own.effect.write_stages | latest_stages(own.effect.stages()) | (waits ? waiting : 0), b.src_accesses = own.effect.writes;
       b.dst_stages = mine.effect.stages(), b.dst_accesses = mine.effect.reads | mine.effect.writes;
-      b.foreign = waits;
-      if (waits) b.sources.clear();
+      b.foreign = waits, b.after_wait = waits ? waiting : 0;
     } else if (is_image(frame_, cell_)) {
       b.old_layout = b.new_layout = mine.effect.layout;
     }
@@ -98,17 +100,18 @@ class Crosser {
     b.is_acquire = acquire_ != UINT32_MAX;
     b.reason = whole_.reason, b.wraps = whole_.wraps;
     b.first_use = schedule_.slot_before(first_segment(mine));
+    b.targets = mine.events;
     if (transfers) release(b, from_queues_.front(), queue);
     add_barrier(sync_, schedule_.slot_before(segment), std::move(b));
   }
 
-  bool wait_for_others(uint32_t queue, uint32_t segment, Stages stages) {
+  bool wait_for_others(uint32_t queue, uint32_t segment, Stages stages, bool chains) {
     bool waits = false;
     for (const uint32_t other : from_queues_) {
       const Side theirs = on_queue(frame_, cell_, from_, other);
       if (other == queue || theirs.effect.stages() == 0) continue;
-      needs_.push_back({other, is_earlier_frame(theirs) ? kNone : schedule_.batch_of[last_segment(theirs)], theirs.effect.stages(),
-                        schedule_.batch_of[segment], stages, cell_});
+      needs_.push_back({other, is_earlier_frame(theirs) ? kNone : schedule_.batch_of[last_segment(theirs)],
+                        theirs.effect.write_stages | latest_stages(theirs.effect.stages()), schedule_.batch_of[segment], stages, cell_, false, chains});
       waits = true;
     }
     return waits;
@@ -118,14 +121,22 @@ class Crosser {
   void release(CellBarrier& b, uint32_t from, uint32_t to) {
     RG_CHECK(from_queues_.size() == 1 && !is_earlier_frame(from_), "an image changes its owner within a frame, from one queue");
     b.src_queue = from, b.dst_queue = to, b.foreign = true;
-    b.sources.clear();
     CellBarrier half = b;
-    half.src_stages = half.dst_stages = from_.effect.stages(), half.src_accesses = from_.effect.writes, half.dst_accesses = 0;
+    half.sources = from_.events, half.targets.clear(), half.after_wait = 0;
+    half.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), half.src_accesses = from_.effect.writes, half.dst_accesses = 0;
+    half.dst_stages = signals_all(schedule_.batch_of[last_segment(from_)]) ? stage::none : half.src_stages;
     half.is_acquire = false, half.reason = "change of queue, " + b.reason;
     const uint32_t slot = schedule_.closing_slot(schedule_.batch_of[last_segment(from_)]);
     half.first_use = slot;
     b.src_accesses = 0;
     add_barrier(sync_, slot, std::move(half));
+  }
+
+  // The last batch of a queue signals everything, which comes after a barrier whatever that names.
+  bool signals_all(uint32_t batch) const {
+    const auto next = std::upper_bound(schedule_.batch_of.begin(), schedule_.batch_of.end(), batch) - schedule_.batch_of.begin();
+    const auto rest = schedule_.queue_of.begin() + next;
+    return std::find(rest, schedule_.queue_of.end(), *(rest - 1)) == schedule_.queue_of.end();
   }
 
   // Users on several queues, one layout: changed where the one queue before them is done, before anybody waits for it.
@@ -135,15 +146,16 @@ class Crosser {
     const Side mine = on_queue(frame_, cell_, to_, queue);
     const bool within = !mine.events.empty() && schedule_.batch_of[first_segment(mine)] == batch;
     CellBarrier b = whole_;
-    b.src_stages = from_.effect.stages(), b.src_accesses = from_.effect.writes;
-    b.dst_stages = mine.events.empty() ? from_.effect.stages() : mine.effect.stages(), b.dst_accesses = mine.effect.reads | mine.effect.writes;
-    b.foreign = true, b.sources.clear();
+    b.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), b.src_accesses = from_.effect.writes;
+    b.targets = mine.events;
+    b.dst_stages = mine.events.empty() ? b.src_stages & ~(b.src_stages - 1) : mine.effect.stages(), b.dst_accesses = mine.effect.reads | mine.effect.writes;
+    b.foreign = true;
     const uint32_t slot = within ? schedule_.slot_before(first_segment(mine)) : schedule_.closing_slot(batch);
     b.first_use = slot;
     for (const uint32_t other : to_queues_) {
       if (other == queue) continue;
       const Side theirs = on_queue(frame_, cell_, to_, other);
-      needs_.push_back({queue, batch, b.dst_stages | b.src_stages, schedule_.batch_of[first_segment(theirs)], theirs.effect.stages(), cell_});
+      needs_.push_back({queue, batch, b.dst_stages, schedule_.batch_of[first_segment(theirs)], theirs.effect.stages(), cell_, true, false});
     }
     add_barrier(sync_, slot, std::move(b));
   }

@@ -150,8 +150,9 @@ class Chooser {
     QueueOf queue_of = choice_.queue_of;
     for (const uint32_t node : members) queue_of[node] = home_[node];
     const double without = end_of(queue_of);
-    for (const uint32_t node : members) choice_.worth[node] = without - end;
-    if (without - end >= threshold_) return false;
+    double own = problem_.wait;
+    for (const uint32_t node : members) choice_.worth[node] = without - end, own += 0.1 * problem_.nodes[node].cost;
+    if (without - end >= own) return false;
     choice_.queue_of = std::move(queue_of);
     end = without;
     return true;

@@ -56,8 +56,8 @@ struct QueueChoice {
   uint64_t simulations = 0;
   bool complete = true;       // false: the search ended at its limit
 };
-// Moves what may move, and then back what is worth less than `threshold`; nothing at all if the whole gain is below it. `effort` limits nodes
-// simulated in all.
+// Moves what may move, and then back each group and each node that is worth less than a wait and a tenth of its own time; nothing at all if the whole
+// gain is below `threshold`. `effort` limits nodes simulated in all.
 QueueChoice choose_queues(const QueueProblem& problem, double threshold, uint64_t effort);
 
 }  // namespace rg::compiler

@@ -1,6 +1,9 @@
 #include "compiler/reduce_waits.h"
 
 #include <algorithm>
+#include <bit>
+#include <climits>
+#include <tuple>
 
 #include "compiler/access_table.h"
 #include "dsl/check_macro.h"
@@ -30,7 +33,14 @@ class Reducer {
       inherit(batch);
       add_waits(batch, by_batch[batch]);
     }
-    for (const Need& need : needs) realise(need);
+    // Needs that leave a choice come after those that leave none, those of the frame before last.
+    std::vector<const Need*> order;
+    for (const Need& need : needs) order.push_back(&need);
+    const auto key = [](const Need* need) {
+      return std::tuple(need->chains, need->from_batch == kNone, need->any_from, need->chains ? -std::popcount(with_later(need->to_stages)) : 0);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](const Need* a, const Need* b) { return key(a) < key(b); });
+    for (const Need* need : order) realise(*need);
     return std::move(sync_);
   }
 
@@ -82,19 +92,42 @@ class Reducer {
     return need.from_batch == kNone ? knows_before_[wait.batch][need.from_queue] : known_[wait.batch][need.from_queue] > index_[need.from_batch];
   }
 
+  static Stages lacking(const BatchWait& wait, const Need& need) {
+    return need.to_stages & ~(need.chains ? with_later(wait.stages) : wait.stages);
+  }
+  static void signal(Stages& stages, const Need& need) {
+    if (!need.any_from)
+      stages |= need.from_stages;
+    else if ((stages & need.from_stages) == 0)
+      stages |= need.from_stages & ~(need.from_stages - 1);
+  }
+
+  // The frame before ends with a signal of everything, which any later signal of the queue comes after.
+  // Of the waits that satisfy the need, the one that lacks the fewest stages; among equals the latest.
+  BatchWait* cheapest(const Need& need) {
+    BatchWait* best = nullptr;
+    int least = INT_MAX;
+    for (uint32_t batch = need.to_batch; batch != kNone; batch = previous_[batch])
+      for (BatchWait& wait : sync_[batch].waits) {
+        if (!satisfies(wait, need)) continue;
+        const Stages signal = need.from_batch == kNone ? need.from_stages : sync_[wait.batch].signal;
+        const int lacks = std::popcount(lacking(wait, need)) + std::popcount(need.from_stages & ~signal);
+        if (lacks < least) best = &wait, least = lacks;
+      }
+    return best;
+  }
+
   // Adds the need's stages to the waits and signals it rests on: a wait of its batch or an earlier one of the queue, or a chain over a third queue.
   void realise(const Need& need) {
-    for (uint32_t batch = need.to_batch; batch != kNone; batch = previous_[batch])
-      for (BatchWait& wait : sync_[batch].waits)
-        if (satisfies(wait, need)) {
-          wait.stages |= need.to_stages;
-          if (wait.batch != kNone) sync_[wait.batch].signal |= need.from_stages;
-          return;
-        }
+    if (BatchWait* wait = cheapest(need)) {
+      wait->stages |= lacking(*wait, need);
+      if (need.from_batch != kNone) signal(sync_[wait->batch].signal, need);
+      return;
+    }
     for (uint32_t batch = need.to_batch; batch != kNone; batch = previous_[batch])
       for (BatchWait& wait : sync_[batch].waits)
         if (leads_to(wait, need)) {
-          wait.stages |= need.to_stages;
+          wait.stages |= lacking(wait, need);
           return chain(need, wait.batch);
         }
     RG_CHECK(false, "every need has a wait it rests on");

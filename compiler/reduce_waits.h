@@ -17,7 +17,9 @@ struct Need {
   Stages from_stages = 0;
   uint32_t to_batch = 0;
   Stages to_stages = 0;
-  uint32_t cell = 0;  // why
+  uint32_t cell = 0;     // why
+  bool any_from = false;  // one of from_stages is enough: a barrier before the signal has gathered them
+  bool chains = false;    // a barrier after the wait goes on from to_stages, so that a wait in earlier ones serves as well
 };
 
 // By batch of the schedule. O(needs log needs + batches * queues * waits a batch).

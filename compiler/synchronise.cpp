@@ -37,6 +37,7 @@ class Synchroniser {
       }
     }
     place_exits();
+    keep_declared_order();
     sync_.batches = reduce_waits(schedule_, needs_);
     return std::move(sync_);
   }
@@ -87,6 +88,7 @@ class Synchroniser {
     CellBarrier b = connect(frame_, options_, cell, from, to);
     b.is_acquire = acquire != UINT32_MAX;
     b.first_use = schedule_.slot_before(segment);
+    if (schedule_.queues.size() > 1) b.targets = to.events;
     add_barrier(sync_, b.is_acquire ? schedule_.slot_before(acquire) : b.first_use, std::move(b));
   }
 
@@ -293,6 +295,24 @@ class Synchroniser {
   }
 
   // ---- the frame's end ----------------------------------------------------------------------------------------------
+
+  // `after` across queues is a wait of its own.
+  void keep_declared_order() {
+    std::vector<uint32_t> position(frame_.graph->passes.size(), UINT32_MAX);
+    for (const uint32_t pass : schedule_.order) position[frame_.passes[pass]] = pass;
+    for (const uint32_t pass : schedule_.order)
+      for (const dsl::PassId id : frame_.pass(pass).after) {
+        const uint32_t before = position[id.value];
+        if (before == UINT32_MAX || before >= pass || schedule_.queue_of_pass(before) == schedule_.queue_of_pass(pass)) continue;
+        needs_.push_back({schedule_.queue_of_pass(before), schedule_.batch_of[schedule_.segment_of[before]], stages_of(before),
+                          schedule_.batch_of[schedule_.segment_of[pass]], stages_of(pass), 0, false, false});
+      }
+  }
+  Stages stages_of(uint32_t pass) const {
+    Stages stages = 0;
+    for (const Use& use : frame_.uses_of(pass)) stages |= use.effect.stages() & ~stage::host;
+    return stages;
+  }
 
   void exit(const Epoch& last, CellBarrier barrier) { exits_.push_back({last.last_segment, std::move(barrier)}); }
 

@@ -43,6 +43,8 @@ struct CellBarrier {
   uint32_t first_use = 0;      // the slot that needs it; later than the group only for discards of a transient
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
   bool foreign = false;        // goes on after a wait, or comes before one; never dropped
+  Stages after_wait = 0;       // of the wait it goes on after, one of which it has to name
+  std::vector<Event> targets;  // on several queues: what comes after it on its own
   std::string reason;          // "read after write"
 };
 
