@@ -56,8 +56,7 @@ class Finder {
   void run() {
     number_points();
     for (const Release& release : plan_.releases) releases_[release.queue].push_back(&release);
-    for (auto& rows : releases_)
-      std::sort(rows.begin(), rows.end(), [](const Release* a, const Release* b) { return a->point < b->point; });
+    for (auto& rows : releases_) std::sort(rows.begin(), rows.end(), [](const Release* a, const Release* b) { return a->point < b->point; });
     // Twice, so that the second frame finds what the first has learnt.
     std::vector<Knowledge> known(queues_, Knowledge(queues_));
     signalled_.assign(plan_.batches.size(), Clock(2 * queues_));
@@ -77,7 +76,8 @@ class Finder {
           continue;
         }
         const Pass& pass = plan_.passes[step.index];
-        for (Index a = pass.first_access; a < pass.first_access + pass.access_count; ++a) last_use[batch.queue][plan_.accesses[a].ref.resource] = point;
+        for (Index a = pass.first_access; a < pass.first_access + pass.access_count; ++a)
+          last_use[batch.queue][plan_.accesses[a].ref.resource] = point;
       }
       end_of_batch_.push_back(point++);
       last_point_[batch.queue] = end_of_batch_.back();

@@ -30,13 +30,15 @@ Stages stages_of(dsl::QueueKind kind) {
 
 bool clears_depth(const Frame& frame, const dsl::Pass& pass) {
   return std::any_of(pass.accesses.begin(), pass.accesses.end(), [&](const dsl::Access& access) {
-    return access.role == dsl::Role::clear_dst && (frame.cells[frame.grids[access.resource.value].first_cell].range.aspects & ~uint32_t{aspect_color});
+    return access.role == dsl::Role::clear_dst &&
+           (frame.cells[frame.grids[access.resource.value].first_cell].range.aspects & ~uint32_t{aspect_color});
   });
 }
 
 class Eligibility {
  public:
-  Eligibility(const Frame& frame, const Schedule& one_queue, const PlanOptions& options) : frame_(frame), options_(options), uses_(frame.cells.size()) {
+  Eligibility(const Frame& frame, const Schedule& one_queue, const PlanOptions& options)
+      : frame_(frame), options_(options), uses_(frame.cells.size()) {
     for (const uint32_t pass : one_queue.order)
       for (const Use& use : frame.uses_of(pass)) uses_[use.cell].push_back(&use);
   }
@@ -50,7 +52,8 @@ class Eligibility {
       const dsl::Resource& resource = frame_.resource_of(use.cell);
       if (use.effect.stages() & ~stages_of(row.queue)) return fmt::format("a {} queue has not the stages it runs in", kind_name(row.queue));
       if (use.share != Share::none && sharers(use.cell) > 1) return fmt::format("others share its writes to `{}` without order", resource.name);
-      if (resource.lifetime == dsl::Lifetime::imported && !is_ready(use)) return fmt::format("`{}` is the engine's at the frame's ends", resource.name);
+      if (resource.lifetime == dsl::Lifetime::imported && !is_ready(use))
+        return fmt::format("`{}` is the engine's at the frame's ends", resource.name);
     }
     return {};
   }
@@ -97,22 +100,35 @@ class LayoutGuard {
   // True if somebody was sent home.
   bool enforce(QueueOf& queue_of, const std::vector<QueueProblem::Node>& nodes) const {
     bool changed = false;
-    for (const auto& [cell, uses] : cells_) {
-      const bool across_frames = frame_.resource_of(cell).lifetime != dsl::Lifetime::transient;
-      const std::vector<Run> runs = runs_of(uses, queue_of);
-      for (size_t i = 0; i < runs.size(); ++i) {
-        if (runs[i].queues.size() < 2) continue;
-        const bool from_many = i > 0 && runs[i - 1].queues.size() > 1 && runs[i - 1].layout != runs[i].layout;
-        if (!from_many && !across_frames) continue;
-        for (const uint32_t node : runs[i].nodes)
-          if (nodes[node].away != UINT32_MAX && queue_of[node] != nodes[node].home && nodes[node].home != nodes[node].away)
-            queue_of[node] = nodes[node].home, changed = true;
-      }
-    }
+    for (const auto& [cell, uses] : cells_)
+      for (const uint32_t node : contested_nodes(cell, uses, queue_of))
+        if (nodes[node].away != UINT32_MAX && queue_of[node] != nodes[node].home) queue_of[node] = nodes[node].home, changed = true;
     return changed;
+  }
+  // Resources of which that did not help, ascending.
+  std::vector<uint32_t> contested(const QueueOf& queue_of) const {
+    std::vector<uint32_t> resources;
+    for (const auto& [cell, uses] : cells_)
+      if (!contested_nodes(cell, uses, queue_of).empty()) resources.push_back(frame_.cells[cell].resource);
+    resources.erase(std::unique(resources.begin(), resources.end()), resources.end());
+    return resources;
   }
 
  private:
+  // Users of a run on several queues that another layout comes before, on several queues or in the frame before.
+  std::vector<uint32_t> contested_nodes(uint32_t cell, const std::vector<std::pair<uint32_t, const Use*>>& uses, const QueueOf& queue_of) const {
+    const bool across_frames = frame_.resource_of(cell).lifetime != dsl::Lifetime::transient;
+    const std::vector<Run> runs = runs_of(uses, queue_of);
+    std::vector<uint32_t> nodes;
+    const bool one_layout = std::all_of(uses.begin(), uses.end(), [&](const auto& use) { return use.second->effect.layout == Layout::general; });
+    for (size_t i = 0; i < runs.size() && !one_layout; ++i) {
+      if (runs[i].queues.size() < 2) continue;
+      const bool from_many = i > 0 && runs[i - 1].queues.size() > 1 && runs[i - 1].layout != runs[i].layout;
+      if (from_many || across_frames) nodes.insert(nodes.end(), runs[i].nodes.begin(), runs[i].nodes.end());
+    }
+    return nodes;
+  }
+
   static std::vector<Run> runs_of(const std::vector<std::pair<uint32_t, const Use*>>& uses, const QueueOf& queue_of) {
     std::vector<Run> runs;
     for (const auto& [node, use] : uses) {
@@ -149,7 +165,8 @@ class Assigner {
     for (const uint32_t pass : one_queue.order) problem_.nodes.push_back({costs[pass], 0, UINT32_MAX, 0});
     for (const Dependency& d : graph.dependencies) {
       const QueueProblem::Edge edge{node_of[d.before], node_of[d.after]};
-      if (problem_.edges.empty() || problem_.edges.back().before != edge.before || problem_.edges.back().after != edge.after) problem_.edges.push_back(edge);
+      if (problem_.edges.empty() || problem_.edges.back().before != edge.before || problem_.edges.back().after != edge.after)
+        problem_.edges.push_back(edge);
     }
   }
 
@@ -162,6 +179,7 @@ class Assigner {
     plan_.timeline = simulate(problem_, choice.queue_of);
     plan_.gain = choice.gain, plan_.gain.end = plan_.timeline.end;
     plan_.simulations = choice.simulations, plan_.complete = choice.complete;
+    plan_.contested = guard.contested(choice.queue_of);
     explain(choice);
     plan_.queue_of = std::move(choice.queue_of);
     return std::move(plan_);
@@ -178,7 +196,8 @@ class Assigner {
       const dsl::Pass& pass = frame_.pass(one_queue_.order[node]);
       if (pass.queue == dsl::QueueKind::graphics) continue;
       const uint32_t queue = queue_of_kind(options_, pass.queue);
-      std::string why = queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : eligibility.why_not(one_queue_.order[node]);
+      std::string why =
+          queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : eligibility.why_not(one_queue_.order[node]);
       if (why.empty() && pass.queue_may) problem_.nodes[node].away = queue;
       if (why.empty() && !pass.queue_may) problem_.nodes[node].home = queue;
       if (!why.empty()) plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});
@@ -208,10 +227,11 @@ class Assigner {
       const uint32_t pass = one_queue_.order[node];
       if (row.away == UINT32_MAX && row.home == 0) continue;
       const bool moved = choice.queue_of[node] != 0;
-      std::string reason = row.away == UINT32_MAX ? fmt::format("on queue {} by `queue`", row.home)
-                           : moved ? fmt::format("moved to queue {}: without that the frame would take {:.1f} us longer", row.away, choice.worth[node] / 1000)
-                                   : fmt::format("stays on the first queue: moving it would save {:.1f} us, less than a wait and a tenth of its own time",
-                                                 std::max(0.0, choice.worth[node]) / 1000);
+      std::string reason =
+          row.away == UINT32_MAX ? fmt::format("on queue {} by `queue`", row.home)
+          : moved ? fmt::format("moved to queue {}: without that the frame would take {:.1f} us longer", row.away, choice.worth[node] / 1000)
+                  : fmt::format("stays on the first queue: moving it would save {:.1f} us, less than a wait and a tenth of its own time",
+                                std::max(0.0, choice.worth[node]) / 1000);
       plan_.decisions.push_back({pass, moved, std::move(reason)});
     }
   }
@@ -225,7 +245,16 @@ class Assigner {
 
 }  // namespace
 
-QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs, const PlanOptions& options) {
+std::string why_not_on_queue(const Frame& frame, uint32_t pass) {
+  Schedule all;
+  all.order.resize(frame.passes.size());
+  std::iota(all.order.begin(), all.order.end(), 0u);
+  const PlanOptions options;
+  return Eligibility(frame, all, options).why_not(pass);
+}
+
+QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs,
+                        const PlanOptions& options) {
   return Assigner(frame, graph, one_queue, costs, options).run();
 }
 

@@ -1,7 +1,8 @@
 // Which queue runs which pass, and what that is worth.
 //
-// `queue KIND` is an order, `queue KIND may` a permission. A permitted pass moves only where the model of queue_timeline.h says that the frame ends earlier
-// by more than a threshold. Some moves are never made, because the hand-over would cost more than it brings or need what the plan does not promise:
+// `queue KIND` is an order, `queue KIND may` a permission. A permitted pass moves only where the model of queue_timeline.h says that the frame ends
+// earlier by more than a threshold. Some moves are never made, because the hand-over would cost more than it brings or need what the plan does not
+// promise:
 //
 //   a pass that touches an imported image             its owner at the frame's ends is the engine
 //   a pass that uses an imported buffer other than by reads that it is ready for
@@ -21,7 +22,7 @@
 namespace rg::compiler {
 
 struct QueueDecision {
-  uint32_t pass = 0;      // of the frame
+  uint32_t pass = 0;  // of the frame
   bool moved = false;
   std::string reason;
 };
@@ -32,14 +33,19 @@ struct QueuePlan {
   uint64_t simulations = 0;
   bool complete = true;
   std::vector<QueueDecision> decisions;  // of passes that name a queue
+  std::vector<uint32_t> contested;       // images whose layout would change between several queues, which no move avoids: use `general`
 };
 
-// `one_queue` is the schedule for a single queue, whose order is kept where that leaves no queue idle. `options.queues` are what there is; the first is the
-// home of passes that name no queue.
-QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs, const PlanOptions& options);
+// Why a pass cannot run on the queue it names, in any arrangement; empty: it can. What `queue KIND` without `may` asks for is then wrong.
+std::string why_not_on_queue(const Frame& frame, uint32_t pass);
 
-// Cuts each queue into segments and batches: a batch ends where another queue waits for it and starts where it waits, after transitive reduction; neighbours
-// are joined again where the frame ends no later for it. O(dependencies + batches^2).
+// `one_queue` is the schedule for a single queue, whose order is kept where that leaves no queue idle. `options.queues` are what there is; the first
+// is the home of passes that name no queue.
+QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs,
+                        const PlanOptions& options);
+
+// Cuts each queue into segments and batches: a batch ends where another queue waits for it and starts where it waits, after transitive reduction;
+// neighbours are joined again where the frame ends no later for it. O(dependencies + batches^2).
 Schedule make_batches(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs,
                       const PlanOptions& options);
 

@@ -13,10 +13,10 @@ struct Scopes {  // of one barrier, completed: the first with logically earlier 
 };
 Scopes scopes_of(const CellBarrier& b) { return {with_earlier(b.src_stages), with_later(b.dst_stages)}; }
 
-// Another queue waited for batch `from` of this one, and batch `to` of this one waited for that: commands before the end of the first come before those
-// of the second, as a barrier would order them.
+// Another queue waited for batch `from` of this one, and batch `to` of this one waited for that: commands before the end of the first come before
+// those of the second, as a barrier would order them.
 struct RoundTrip {
-  uint32_t from = 0, to = 0;    // groups of this queue: the first after the one batch, the first of the other; from 0: the frame before
+  uint32_t from = 0, to = 0;     // groups of this queue: the first after the one batch, the first of the other; from 0: the frame before
   Stages first = 0, second = 0;  // completed, as in Scopes
   Stages available = 0;          // whose writes the signal made available
   Stages exact_second = 0;       // as the wait names them: what sees the writes
@@ -24,12 +24,13 @@ struct RoundTrip {
 
 // Those that end before `group`; `trips` are sorted by that.
 std::span<const RoundTrip> trips_to(const std::vector<RoundTrip>& trips, uint32_t group) {
-  const auto [first, last] = std::equal_range(trips.begin(), trips.end(), RoundTrip{0, group}, [](const RoundTrip& a, const RoundTrip& b) { return a.to < b.to; });
+  const auto [first, last] =
+      std::equal_range(trips.begin(), trips.end(), RoundTrip{0, group}, [](const RoundTrip& a, const RoundTrip& b) { return a.to < b.to; });
   return {first, last};
 }
 
-// How execution scopes chain over the groups of one queue: a stage is reached where its later commands come after the event. What happened in the frame
-// before counts from the start of this one: the boundary state promises no more.
+// How execution scopes chain over the groups of one queue: a stage is reached where its later commands come after the event. What happened in the
+// frame before counts from the start of this one: the boundary state promises no more.
 class Chains {
  public:
   Chains(const std::vector<std::vector<CellBarrier>*>& groups, const std::vector<RoundTrip>& trips)
@@ -57,14 +58,13 @@ class Chains {
   }
 
   // True if, once the groups [first, end) have been recorded, all of `wanted` come after `stage` of an earlier command.
-  bool reaches(Stages stage, uint32_t first, uint32_t end, Stages wanted) const {
+  bool reaches(Stages stage, uint32_t first, uint32_t end, Stages wanted, bool over_trips) const {
     Stages reach = 0;
     std::vector<Stages> reached;  // before each group, from `first`
     for (uint32_t g = first; g < end && (reach & wanted) != wanted; ++g) {
-      if (!trips_.empty()) reached.push_back(reach);
-      for (const RoundTrip& trip : trips_to(trips_, g))
-        if (trip.from >= first && (trip.first & (stage | reached[std::min<size_t>(trip.from - first, reached.size() - 1)])))
-          reach |= trip.second;
+      if (over_trips) reached.push_back(reach);
+      for (const RoundTrip& trip : over_trips ? trips_to(trips_, g) : std::span<const RoundTrip>())
+        if (trip.from >= first && (trip.first & (stage | reached[std::min<size_t>(trip.from - first, reached.size() - 1)]))) reach |= trip.second;
       const Stages before = stage | reach;  // barriers of one group do not chain
       for (const Scopes& scopes : distinct_[g])
         if (scopes.first & before) reach |= scopes.second;
@@ -83,14 +83,15 @@ struct Claim {
   Stages stage = 0;             // of a command before group `first`
   uint32_t first = 0, end = 0;  // groups that may order it
   Stages wanted = 0;
-  bool all = true;  // all of `wanted` must come after it; or any
+  bool all = true;         // all of `wanted` must come after it; or any
+  bool over_trips = true;  // round trips count
 };
 
 bool holds(const Chains& chains, const Claim& claim) {
-  if (claim.all) return chains.reaches(claim.stage, claim.first, claim.end, claim.wanted);
+  if (claim.all) return chains.reaches(claim.stage, claim.first, claim.end, claim.wanted, claim.over_trips);
   if (claim.stage & claim.wanted) return true;
   for (Stages rest = claim.wanted; rest; rest &= rest - 1)
-    if (chains.reaches(claim.stage, claim.first, claim.end, rest & ~(rest - 1))) return true;
+    if (chains.reaches(claim.stage, claim.first, claim.end, rest & ~(rest - 1), claim.over_trips)) return true;
   return false;
 }
 
@@ -119,15 +120,13 @@ class Dropper {
   // Claims are checked again at each later change, which is what bounds their number.
   static constexpr size_t kMostClaims = 2000;
 
-  uint32_t first_after(const Event& event) const {
-    return event.earlier_frame ? 0 : group_of_slot_[schedule_.slot_before(event.segment)] + 1;
-  }
+  uint32_t first_after(const Event& event) const { return event.earlier_frame ? 0 : group_of_slot_[schedule_.slot_before(event.segment)] + 1; }
 
   // Writes that a round trip has made available need not be named again.
   void drop_available() {
     for (uint32_t g = 0; g < groups_.size(); ++g)
       for (CellBarrier& b : *groups_[g])
-        if (b.src_accesses != 0 && b.src_queue == b.dst_queue) drop_available(b, g);
+        if (b.within_frame && b.src_accesses != 0 && b.src_queue == b.dst_queue) drop_available(b, g);
     for (uint32_t g = 0; g < groups_.size(); ++g) chains_.refresh(g);
   }
   void drop_available(CellBarrier& b, uint32_t group) const {
@@ -146,9 +145,11 @@ class Dropper {
 
   // Users that a round trip brings behind the barrier need not be in its second scope, as long as that leads to the trip.
   void drop_reached() {
-    for (uint32_t g = 0; g < groups_.size(); ++g)
+    for (uint32_t g = 0; g < groups_.size(); ++g) {
+      std::erase_if(*groups_[g], [&](const CellBarrier& b) { return b.within_frame && is_replaced(b); });
       for (CellBarrier& b : *groups_[g])
-        if (!b.targets.empty()) drop_reached(b, g);
+        if (b.within_frame && !b.targets.empty()) drop_reached(b, g);
+    }
     for (uint32_t g = 0; g < groups_.size(); ++g) chains_.refresh(g);
   }
   void drop_reached(CellBarrier& b, uint32_t group) const {
@@ -167,6 +168,20 @@ class Dropper {
       }
     b.dst_accesses &= open;
   }
+  // Round trips alone bring every user behind every source.
+  bool is_replaced(const CellBarrier& b) const {
+    if (b.old_layout != b.new_layout || b.src_queue != b.dst_queue || b.foreign || b.targets.empty() || b.sources.empty()) return false;
+    return std::all_of(b.sources.begin(), b.sources.end(), [&](const Event& source) {
+      return std::all_of(b.targets.begin(), b.targets.end(), [&](const Event& target) { return is_brought(source, target); });
+    });
+  }
+  bool is_brought(const Event& source, const Event& target) const {
+    const uint32_t user = group_of_slot_[schedule_.slot_before(target.segment)];
+    return std::any_of(trips_.begin(), trips_.end(), [&](const RoundTrip& trip) {
+      return trip.from >= first_after(source) && trip.to <= user && (source.effect.stages() & ~trip.first) == 0 &&
+             (source.effect.write_stages & ~trip.available) == 0 && (target.effect.stages() & ~trip.exact_second) == 0;
+    });
+  }
   // A trip that begins behind the barrier, by way of one of `through`, and ends before the event.
   bool comes_after_trip(const Event& event, Stages stage, uint32_t group, Stages through) const {
     const uint32_t user = group_of_slot_[schedule_.slot_before(event.segment)];
@@ -177,12 +192,12 @@ class Dropper {
 
   static bool may_narrow(const CellBarrier& b, Stages src) {
     if (b.src_accesses != 0 || b.sources.empty() || src == 0 || b.src_queue != b.dst_queue) return false;
-    if (b.after_wait) return (with_earlier(src) & b.after_wait) != 0;
+    if (b.after_wait) return b.within_frame && (with_earlier(src) & b.after_wait) != 0;
     return !b.foreign;
   }
 
-  // What must hold for the barrier's sources, if the barrier is gone (`src` 0) or waits for `src` only. Barriers of its own group help where execution
-  // alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
+  // What must hold for the barrier's sources, if the barrier is gone (`src` 0) or waits for `src` only. Barriers of its own group help where
+  // execution alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
   std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages src) const {
     std::vector<Claim> claims;
     const bool transition = b.old_layout != b.new_layout;
@@ -191,9 +206,9 @@ class Dropper {
       for (Stages rest = event.stages; rest; rest &= rest - 1) {
         const Stages stage = rest & ~(rest - 1);
         if (transition)
-          claims.push_back({stage, first, group, with_earlier(src), false});
+          claims.push_back({stage, first, group, with_earlier(src), false, b.within_frame && !trips_.empty()});
         else
-          claims.push_back({stage, first, group_of_slot_[b.first_use] + 1, b.dst_stages, true});
+          claims.push_back({stage, first, group_of_slot_[b.first_use] + 1, b.dst_stages, true, b.within_frame && !trips_.empty()});
       }
     }
     return claims;
@@ -224,12 +239,16 @@ class Dropper {
   std::vector<Claim> claims_;
 };
 
-// By queue, sorted: what waits to and fro between two queues order. A signal comes after those before it on its queue, up to the end of the frame before,
-// which signals everything; the last few are enough in practice.
+// By queue, sorted: what waits to and fro between two queues order. A signal comes after those before it on its queue, up to the end of the frame
+// before, which signals everything; the last few are enough in practice.
 class RoundTrips {
  public:
   RoundTrips(const SyncPlan& sync, const Schedule& schedule, const std::vector<uint32_t>& group_of_slot)
-      : sync_(sync), schedule_(schedule), group_of_slot_(group_of_slot), queue_(schedule.batches), first_slot_(schedule.batches, UINT32_MAX),
+      : sync_(sync),
+        schedule_(schedule),
+        group_of_slot_(group_of_slot),
+        queue_(schedule.batches),
+        first_slot_(schedule.batches, UINT32_MAX),
         trips_(schedule.queues.size()) {
     for (uint32_t segment = 0; segment < schedule.segments; ++segment) {
       const uint32_t batch = schedule.batch_of[segment];

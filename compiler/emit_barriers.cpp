@@ -74,8 +74,8 @@ void emit_boundary(const PlanParts& parts, const PlanIndices& indices, const std
 
 }  // namespace
 
-// Groups in front of segments are always there, for hand-offs of memory; those at the end of a batch where something stands in them, and at the end of a
-// frame on one queue.
+// Groups in front of segments are always there, for hand-offs of memory; those at the end of a batch where something stands in them, and at the end
+// of a frame on one queue.
 std::vector<Index> groups_of_slots(const PlanParts& parts) {
   std::vector<Index> groups(parts.sync.groups.size(), kNone);
   std::vector<bool> opens(groups.size());

@@ -60,7 +60,8 @@ void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressi
     row.usage = usage[r];
     row.import_slot = slots[r];
     row.concurrent = parts.sync.concurrent[r];
-    if (row.lifetime == rg::Lifetime::transient) row.no_alias = row.no_alias || parts.sync.scattered[r] || parts.options.keep_apart.contains(std::string(row.name));
+    if (row.lifetime == rg::Lifetime::transient)
+      row.no_alias = row.no_alias || parts.sync.scattered[r] || parts.options.keep_apart.contains(std::string(row.name));
     plan.resources.push_back(row);
   }
 }

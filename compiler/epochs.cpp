@@ -58,7 +58,8 @@ void merge(Effect& effect, const Effect& other) {
 }
 
 bool continues(const Epoch& earlier, const Epoch& later) {
-  return !earlier.writes && !later.writes && earlier.effect.layout == later.effect.layout && earlier.queue == later.queue && later.queue != kSeveralQueues;
+  return !earlier.writes && !later.writes && earlier.effect.layout == later.effect.layout && earlier.queue == later.queue &&
+         later.queue != kSeveralQueues;
 }
 
 std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
@@ -71,7 +72,8 @@ std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
     const Grid& grid = frame.grids[frame.cells[cell].resource];
     Line line{cell, {}};
     for (uint32_t age = 0; age < grid.ages; ++age)
-      for (const Use* use : by_cell[cell + age * grid.cells_per_age()]) add(line.epochs, age, *use, schedule.segment_of[use->pass], schedule.queue_of_pass(use->pass));
+      for (const Use* use : by_cell[cell + age * grid.cells_per_age()])
+        add(line.epochs, age, *use, schedule.segment_of[use->pass], schedule.queue_of_pass(use->pass));
     if (line.epochs.empty()) continue;
     for (Epoch& epoch : line.epochs) epoch.covered = epoch.effect;
     if (crosses_frames(frame.resource_of(cell).lifetime)) cover_continued_reads(line);

@@ -9,7 +9,7 @@
 namespace rg::compiler {
 namespace {
 
-struct Piece {  // a segment, before segments are numbered in the serial order
+struct Piece {                    // a segment, before segments are numbered in the serial order
   uint32_t queue = 0, index = 0;  // index: among the pieces of its queue
   double cost = 0;
   std::vector<uint32_t> passes;
@@ -64,8 +64,8 @@ class Cutter {
       const Piece& piece = pieces_[wait];
       bool implied = now_[queue][piece.queue] > piece.index;
       for (const uint32_t other : waits)
-        implied = implied || (other != wait && (pieces_[other].queue == piece.queue ? pieces_[other].index > piece.index
-                                                                                   : known_[other][piece.queue] > piece.index));
+        implied = implied || (other != wait &&
+                              (pieces_[other].queue == piece.queue ? pieces_[other].index > piece.index : known_[other][piece.queue] > piece.index));
       if (!implied) kept.push_back(wait);
     }
     return kept;
@@ -196,8 +196,9 @@ Schedule make_batches(const Frame& frame, const Graph& graph, const Schedule& on
     }
   schedule.batches = static_cast<uint32_t>(joined.serial.size());
   schedule.peak_bytes = one_queue.peak_bytes;
-  schedule.chosen_because = fmt::format("{}; on {} queues in {} batches the model takes {:.1f} us instead of {:.1f}, at least {:.1f}", one_queue.chosen_because,
-                                        options.queues.size(), schedule.batches, joined.end / 1000, plan.gain.serial / 1000, plan.gain.bound / 1000);
+  schedule.chosen_because =
+      fmt::format("{}; on {} queues in {} batches the model takes {:.1f} us instead of {:.1f}, at least {:.1f}", one_queue.chosen_because,
+                  options.queues.size(), schedule.batches, joined.end / 1000, plan.gain.serial / 1000, plan.gain.bound / 1000);
   return schedule;
 }
 

@@ -15,8 +15,8 @@
 
 namespace rg::compiler {
 
-// On several queues segments are numbered in a legal serial order. Runs of segments of one queue form batches; other queues wait for the end of a batch,
-// and a batch waits before its first segment. Barriers have slots: one before each segment, one at the end of each batch.
+// On several queues segments are numbered in a legal serial order. Runs of segments of one queue form batches; other queues wait for the end of a
+// batch, and a batch waits before its first segment. Barriers have slots: one before each segment, one at the end of each batch.
 //
 //   batch      0 (graphics)       1 (compute)      2 (graphics)
 //   segment    0       1          2                3
@@ -26,7 +26,7 @@ struct Schedule {
   std::vector<uint32_t> segment_of;  // by pass of the frame; UINT32_MAX: culled
   uint32_t segments = 0;
   std::vector<dsl::QueueKind> queues = {dsl::QueueKind::graphics};
-  std::vector<uint32_t> queue_of, batch_of;                // by segment; every batch has a segment, unless there is none at all
+  std::vector<uint32_t> queue_of, batch_of;  // by segment; every batch has a segment, unless there is none at all
   uint32_t batches = 1;
   uint64_t peak_bytes = 0;  // live transient bytes in the serial order
   std::string chosen_because;

@@ -9,8 +9,10 @@ namespace {
 // Everything but the place within the resource.
 auto meaning(const Frame& frame, const CellBarrier& b) {
   const Cell& cell = frame.cells[b.cell];
-  return std::tuple(cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout, b.new_layout,
-                    b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign, b.after_wait);
+  // Both halves of a change of owner have to name the same range, so they stay cell by cell.
+  const uint32_t alone = b.src_queue == b.dst_queue ? 0 : b.cell + 1;
+  return std::tuple(alone, cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout,
+                    b.new_layout, b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign, b.after_wait);
 }
 
 void absorb(CellBarrier& into, CellBarrier& other) {

@@ -1,5 +1,6 @@
 #include "compiler/plan_frame.h"
 
+#include <algorithm>
 #include <chrono>
 
 #include "compiler/alias_clocks.h"
@@ -35,10 +36,18 @@ struct Queues {
   Schedule schedule;
   Overlap overlap;
   Decisions decisions;
+  std::vector<uint32_t> contested;
 };
 
+// One layout for all uses of the images, so that it never has to change between queues.
+void use_general_layout(Frame& frame, const std::vector<uint32_t>& resources) {
+  for (Use& use : frame.uses)
+    if (std::find(resources.begin(), resources.end(), frame.cells[use.cell].resource) != resources.end()) use.effect.layout = Layout::general;
+}
+
 Overlap overlap_of(const QueuePlan& plan, const Schedule& one_queue, const std::vector<double>& costs, size_t queues) {
-  Overlap overlap{plan.gain.serial, plan.gain.critical_path, plan.gain.bound, plan.gain.end, plan.simulations, plan.complete, 0, plan.decisions.size(), {}};
+  Overlap overlap{
+      plan.gain.serial, plan.gain.critical_path, plan.gain.bound, plan.gain.end, plan.simulations, plan.complete, 0, plan.decisions.size(), {}};
   overlap.work.assign(queues, 0);
   for (size_t node = 0; node < plan.queue_of.size(); ++node) overlap.work[plan.queue_of[node]] += costs[one_queue.order[node]];
   for (const uint32_t queue : plan.queue_of) overlap.moved += queue != 0;
@@ -67,9 +76,9 @@ Queues use_queues(const Frame& frame, const Graph& graph, const Schedule& one_qu
   if (!used.async) used.queues.resize(1);
   QueuePlan plan = assign_queues(frame, graph, one_queue, costs, used);
   drop_idle(plan, used);
-  Queues queues{one_queue, overlap_of(plan, one_queue, costs, used.queues.size()), {}};
+  Queues queues{one_queue, overlap_of(plan, one_queue, costs, used.queues.size()), {}, plan.contested};
   for (const QueueDecision& decision : plan.decisions) queues.decisions.push_back({frame.pass(decision.pass).name, "queue", decision.reason});
-  if (queues.overlap.moved > 0) queues.schedule = make_batches(frame, graph, one_queue, plan, costs, used);
+  if (queues.overlap.moved > 0 && plan.contested.empty()) queues.schedule = make_batches(frame, graph, one_queue, plan, costs, used);
   return queues;
 }
 
@@ -80,16 +89,22 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   Stopwatch watch;
 
   // What this configuration is made of, down to the subresource.
-  const Frame frame = watch.time("expand", [&] { return expand(program, graph_id, configuration, options); });
+  Frame frame = watch.time("expand", [&] { return expand(program, graph_id, configuration, options); });
 
   // Who needs whom; what nobody needs goes, and with it its hazards.
   const std::vector<bool> all(frame.passes.size(), true);
   const Liveness liveness = watch.time("cull", [&] { return cull(frame, build_graph(frame, all)); });
-  const Graph graph = watch.time("build_graph", [&] { return build_graph(frame, liveness.live); });
+  Graph graph = watch.time("build_graph", [&] { return build_graph(frame, liveness.live); });
 
   // Order, and where barriers stand. Beyond this point both are fixed.
-  const Schedule one_queue = watch.time("make_schedule", [&] { return make_schedule(frame, graph, liveness.live, options); });
-  const Queues queues = watch.time("assign_queues", [&] { return use_queues(frame, graph, one_queue, options); });
+  Schedule one_queue = watch.time("make_schedule", [&] { return make_schedule(frame, graph, liveness.live, options); });
+  Queues queues = watch.time("assign_queues", [&] { return use_queues(frame, graph, one_queue, options); });
+  if (!queues.contested.empty()) {
+    use_general_layout(frame, queues.contested);
+    graph = build_graph(frame, liveness.live);
+    one_queue = make_schedule(frame, graph, liveness.live, options);
+    queues = use_queues(frame, graph, one_queue, options);
+  }
   const Schedule& schedule = queues.schedule;
   const std::vector<Line> lines = watch.time("find_epochs", [&] { return find_epochs(frame, schedule); });
 

@@ -26,9 +26,9 @@ struct PlanOptions {
   Prefer prefer = Prefer::balance;
   Effort effort = Effort::normal;
   std::vector<dsl::QueueKind> queues = {dsl::QueueKind::graphics};  // what the plan may use; the first is where passes run that name none
-  std::map<std::string, double> measured_us = {};                  // by pass name: measured times in place of estimates
-  std::set<std::string> keep_apart = {};                           // resources that share no memory, whatever `aliasing` says
-  std::set<std::string> keep_home = {};                            // passes that stay on the first queue, whatever `async` says
+  std::map<std::string, double> measured_us = {};                   // by pass name: measured times in place of estimates
+  std::set<std::string> keep_apart = {};                            // resources that share no memory, whatever `aliasing` says
+  std::set<std::string> keep_home = {};                             // passes that stay on the first queue, whatever `async` says
 };
 
 // Why something is as it is: the record that reports and `rgc explain` read.
@@ -51,7 +51,7 @@ struct Overlap {
 
 struct FramePlan {
   Configuration configuration;
-  PlanData plan;        // without pipelines, bindings and shaders: see codegen/bind.h
+  PlanData plan;  // without pipelines, bindings and shaders: see codegen/bind.h
   Decisions decisions;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
   Overlap overlap;

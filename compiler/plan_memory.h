@@ -1,7 +1,7 @@
 // Where transients lie, estimated at the initial extents.
 //
-// Which of them may share bytes follows from the plan's points and clocks, see runtime/alias.h. On one queue that is the same as lives that do not meet;
-// then the packer works on intervals. On several queues it works on the pairs that must not share, and the bound is that of the serial order.
+// Which of them may share bytes follows from the plan's points and clocks, see runtime/alias.h. On one queue that is the same as lives that do not
+// meet; then the packer works on intervals. On several queues it works on the pairs that must not share, and the bound is that of the serial order.
 #pragma once
 
 #include "compiler/frame.h"

@@ -66,9 +66,20 @@ bool is_earlier_frame(const Side& side) { return !side.events.empty() && side.ev
 
 class Crosser {
  public:
-  Crosser(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync, std::vector<Need>& needs)
-      : frame_(frame), schedule_(schedule), options_(options), cell_(crossing.cell), from_(crossing.from), to_(crossing.to), acquire_(crossing.acquire),
-        sync_(sync), needs_(needs), whole_(connect(frame, options, cell_, from_, to_)), from_queues_(queues_of(from_)), to_queues_(queues_of(to_)) {}
+  Crosser(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync,
+          std::vector<Need>& needs)
+      : frame_(frame),
+        schedule_(schedule),
+        options_(options),
+        cell_(crossing.cell),
+        from_(crossing.from),
+        to_(crossing.to),
+        acquire_(crossing.acquire),
+        sync_(sync),
+        needs_(needs),
+        whole_(connect(frame, options, cell_, from_, to_)),
+        from_queues_(queues_of(from_)),
+        to_queues_(queues_of(to_)) {}
 
   void run() {
     const bool changes = whole_.old_layout != whole_.new_layout;
@@ -110,11 +121,19 @@ class Crosser {
     for (const uint32_t other : from_queues_) {
       const Side theirs = on_queue(frame_, cell_, from_, other);
       if (other == queue || theirs.effect.stages() == 0) continue;
-      needs_.push_back({other, is_earlier_frame(theirs) ? kNone : schedule_.batch_of[last_segment(theirs)],
-                        theirs.effect.write_stages | latest_stages(theirs.effect.stages()), schedule_.batch_of[segment], stages, cell_, false, chains});
+      needs_.push_back({other, last_batch(theirs), theirs.effect.write_stages | latest_stages(theirs.effect.stages()), schedule_.batch_of[segment],
+                        stages, cell_, false, chains});
       waits = true;
     }
     return waits;
+  }
+
+  // In this frame, which comes after all that the queue did before; kNone: it did nothing in this one.
+  uint32_t last_batch(const Side& side) const {
+    uint32_t batch = kNone;
+    for (const Event& event : side.events)
+      if (!event.earlier_frame) batch = batch == kNone ? schedule_.batch_of[event.segment] : std::max(batch, schedule_.batch_of[event.segment]);
+    return batch;
   }
 
   // The other half of the acquire `b`, at the end of the batch that gives the image away.
@@ -123,8 +142,9 @@ class Crosser {
     b.src_queue = from, b.dst_queue = to, b.foreign = true;
     CellBarrier half = b;
     half.sources = from_.events, half.targets.clear(), half.after_wait = 0;
-    half.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), half.src_accesses = from_.effect.writes, half.dst_accesses = 0;
-    half.dst_stages = signals_all(schedule_.batch_of[last_segment(from_)]) ? stage::none : half.src_stages;
+    half.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), half.src_accesses = from_.effect.writes,
+    half.dst_accesses = 0;
+    half.dst_stages = signals_all(schedule_.batch_of[last_segment(from_)]) ? stage::none : half.src_stages & ~(half.src_stages - 1);
     half.is_acquire = false, half.reason = "change of queue, " + b.reason;
     const uint32_t slot = schedule_.closing_slot(schedule_.batch_of[last_segment(from_)]);
     half.first_use = slot;
@@ -148,7 +168,8 @@ class Crosser {
     CellBarrier b = whole_;
     b.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), b.src_accesses = from_.effect.writes;
     b.targets = mine.events;
-    b.dst_stages = mine.events.empty() ? b.src_stages & ~(b.src_stages - 1) : mine.effect.stages(), b.dst_accesses = mine.effect.reads | mine.effect.writes;
+    b.dst_stages = mine.events.empty() ? b.src_stages & ~(b.src_stages - 1) : mine.effect.stages(),
+    b.dst_accesses = mine.effect.reads | mine.effect.writes;
     b.foreign = true;
     const uint32_t slot = within ? schedule_.slot_before(first_segment(mine)) : schedule_.closing_slot(batch);
     b.first_use = slot;
@@ -202,6 +223,7 @@ Side on_queue(const Frame& frame, uint32_t cell, const Side& side, uint32_t queu
 CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cell, const Side& from, const Side& to) {
   const bool image = is_image(frame, cell);
   CellBarrier b;
+  b.within_frame = frame.resource_of(cell).lifetime == dsl::Lifetime::transient;
   b.cell = cell, b.range = frame.cells[cell].range, b.begin = frame.cells[cell].begin, b.end = frame.cells[cell].end;
   // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
   const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;
@@ -220,7 +242,8 @@ CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cel
   return b;
 }
 
-void cross(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync, std::vector<Need>& needs) {
+void cross(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync,
+           std::vector<Need>& needs) {
   Crosser(frame, schedule, options, crossing, sync, needs).run();
 }
 

@@ -35,7 +35,8 @@ struct Crossing {
   uint32_t acquire = UINT32_MAX;  // the segment where a transient takes its memory over; else the first user's
 };
 // Adds barriers to `sync` and what must wait to `needs`. Pre-condition, kept by assign_queues(): a layout that changes has one queue before or after.
-void cross(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync, std::vector<Need>& needs);
+void cross(const Frame& frame, const Schedule& schedule, const PlanOptions& options, const Crossing& crossing, SyncPlan& sync,
+           std::vector<Need>& needs);
 
 // Puts a barrier into a slot, unless it does nothing.
 void add_barrier(SyncPlan& sync, uint32_t slot, CellBarrier barrier);

@@ -54,7 +54,7 @@ struct QueueChoice {
   QueueGain gain;
   std::vector<double> worth;  // by node that is away: how much later the frame would end without its move (its whole group's)
   uint64_t simulations = 0;
-  bool complete = true;       // false: the search ended at its limit
+  bool complete = true;  // false: the search ended at its limit
 };
 // Moves what may move, and then back each group and each node that is worth less than a wait and a tenth of its own time; nothing at all if the whole
 // gain is below `threshold`. `effort` limits nodes simulated in all.

@@ -13,8 +13,13 @@ namespace {
 
 class Reducer {
  public:
-  explicit Reducer(const Schedule& schedule) : queues_(schedule.queues.size()), sync_(schedule.batches), queue_(schedule.batches), index_(schedule.batches),
-                                               previous_(schedule.batches, kNone), batches_of_(queues_) {
+  explicit Reducer(const Schedule& schedule)
+      : queues_(schedule.queues.size()),
+        sync_(schedule.batches),
+        queue_(schedule.batches),
+        index_(schedule.batches),
+        previous_(schedule.batches, kNone),
+        batches_of_(queues_) {
     std::vector<uint32_t> count(queues_), last(queues_, kNone);
     for (uint32_t segment = 0; segment < schedule.segments; ++segment) {
       const uint32_t batch = schedule.batch_of[segment], queue = schedule.queue_of[segment];
@@ -92,9 +97,7 @@ class Reducer {
     return need.from_batch == kNone ? knows_before_[wait.batch][need.from_queue] : known_[wait.batch][need.from_queue] > index_[need.from_batch];
   }
 
-  static Stages lacking(const BatchWait& wait, const Need& need) {
-    return need.to_stages & ~(need.chains ? with_later(wait.stages) : wait.stages);
-  }
+  static Stages lacking(const BatchWait& wait, const Need& need) { return need.to_stages & ~(need.chains ? with_later(wait.stages) : wait.stages); }
   static void signal(Stages& stages, const Need& need) {
     if (!need.any_from)
       stages |= need.from_stages;
@@ -143,10 +146,10 @@ class Reducer {
 
   size_t queues_;
   std::vector<BatchSync> sync_;
-  std::vector<uint32_t> queue_, index_, previous_;   // by batch: its queue, its number there, the one before it there
-  std::vector<std::vector<uint32_t>> batches_of_;    // by queue
-  std::vector<std::vector<uint32_t>> known_;         // by batch, by queue: how many batches of that queue have completed before it
-  std::vector<std::vector<bool>> knows_before_;      // by batch, by queue: what that queue did in the frame before has completed
+  std::vector<uint32_t> queue_, index_, previous_;  // by batch: its queue, its number there, the one before it there
+  std::vector<std::vector<uint32_t>> batches_of_;   // by queue
+  std::vector<std::vector<uint32_t>> known_;        // by batch, by queue: how many batches of that queue have completed before it
+  std::vector<std::vector<bool>> knows_before_;     // by batch, by queue: what that queue did in the frame before has completed
 };
 
 }  // namespace

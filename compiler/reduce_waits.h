@@ -1,8 +1,8 @@
 // From everything that must wait for another queue to the waits that remain.
 //
-// A wait makes its whole queue, from that batch on, come after the whole of the batch it waits for and of those before it on the same queue. So of the waits
-// of a batch only the latest on each queue counts, and none that an earlier wait, or one of the other queue itself, implies (transitive reduction over
-// queue order). What an implied need asked for is added to the stages of the waits and signals that realise it.
+// A wait makes its whole queue, from that batch on, come after the whole of the batch it waits for and of those before it on the same queue. So of
+// the waits of a batch only the latest on each queue counts, and none that an earlier wait, or one of the other queue itself, implies (transitive
+// reduction over queue order). What an implied need asked for is added to the stages of the waits and signals that realise it.
 #pragma once
 
 #include <vector>
@@ -17,7 +17,7 @@ struct Need {
   Stages from_stages = 0;
   uint32_t to_batch = 0;
   Stages to_stages = 0;
-  uint32_t cell = 0;     // why
+  uint32_t cell = 0;      // why
   bool any_from = false;  // one of from_stages is enough: a barrier before the signal has gathered them
   bool chains = false;    // a barrier after the wait goes on from to_stages, so that a wait in earlier ones serves as well
 };

@@ -132,7 +132,8 @@ class Synchroniser {
     for (const uint32_t queue : queues_of(last)) {
       const Effect effect = on_queue(frame_, line.cell, last, queue).effect;
       Release& release = release_of(resource, queue);
-      release.stages |= effect.write_stages | latest_stages(effect.stages());
+      released_writes_[static_cast<size_t>(&release - sync_.releases.data())] |= effect.write_stages;
+      release.stages = released_writes_[static_cast<size_t>(&release - sync_.releases.data())] | latest_stages(release.stages | effect.stages());
       release.accesses |= effect.writes;
     }
   }
@@ -141,6 +142,7 @@ class Synchroniser {
     for (size_t i = rows.size(); i-- > 0 && rows[i].resource == resource;)
       if (rows[i].queue == queue) return rows[i];
     rows.push_back({resource, 0, 0, queue, 0});
+    released_writes_.push_back(0);
     return rows.back();
   }
 
@@ -285,11 +287,14 @@ class Synchroniser {
     host.read_stages = stage::host, host.reads = access::host_read;
     Line whole = line;
     Epoch& last = whole.epochs.back();
-    const bool joins = !last.writes && whole.epochs.size() > 1;
+    const bool joins =
+        !last.writes && whole.epochs.size() > 1 && last.queue != kSeveralQueues && whole.epochs[whole.epochs.size() - 2].queue == last.queue;
     if (joins) merge(last.covered, host);
     connect_within(whole, false);
     if (!joins)
-      exit(last, connect(frame_, options_, line.cell, side_of(line.cell, last, true), {host, false, true, true, {}, false, {}}));
+      exit(last,
+           connect(frame_, options_, line.cell, on_queue(frame_, line.cell, side_of(line.cell, last, true), schedule_.queue_of[last.last_segment]),
+                   {host, false, true, true, {}, false, {}}));
     boundary(sync_.entry, line.cell, {}, Layout::undefined, true);
     boundary(sync_.exit, line.cell, {host, false, true, true, {}, false, {}}, Layout::undefined, false);
   }
@@ -321,7 +326,8 @@ class Synchroniser {
     std::vector<uint32_t> last(schedule_.queues.size());
     for (uint32_t segment = 0; segment < schedule_.segments; ++segment) last[schedule_.queue_of[segment]] = segment;
     std::vector<bool> closes(schedule_.queues.size());
-    for (const Exit& exit : exits_) closes[schedule_.queue_of[exit.segment]] = closes[schedule_.queue_of[exit.segment]] || exit.segment == last[schedule_.queue_of[exit.segment]];
+    for (const Exit& exit : exits_)
+      closes[schedule_.queue_of[exit.segment]] = closes[schedule_.queue_of[exit.segment]] || exit.segment == last[schedule_.queue_of[exit.segment]];
     for (Exit& exit : exits_) {
       const uint32_t queue = schedule_.queue_of[exit.segment], end = last[queue];
       add_barrier(sync_, closes[queue] ? schedule_.closing_slot(schedule_.batch_of[end]) : schedule_.slot_before(end), std::move(exit.barrier));
@@ -350,6 +356,7 @@ class Synchroniser {
   const PlanOptions& options_;
   SyncPlan sync_;
   std::vector<Need> needs_;
+  std::vector<Stages> released_writes_;  // by release: stages that have to be named because they write
   std::vector<uint32_t> first_segment_;  // by program resource
   std::vector<Exit> exits_;
 };

@@ -25,10 +25,10 @@
 
 namespace rg::compiler {
 
-// Between queues there are no barriers: the batch of the later users waits for the end of the batch of the earlier ones. An image that one queue uses at a
-// time changes hands by a release at the end of the one batch and an acquire in the other; images read on several queues at once, and history used on
-// several, are shared instead. A layout changes on the queue of the later users, or, where those are on several, at the end of the earlier users' batch.
-// A barrier that goes on after a wait names the stages that wait as its first scope.
+// Between queues there are no barriers: the batch of the later users waits for the end of the batch of the earlier ones. An image that one queue uses
+// at a time changes hands by a release at the end of the one batch and an acquire in the other; images read on several queues at once, and history
+// used on several, are shared instead. A layout changes on the queue of the later users, or, where those are on several, at the end of the earlier
+// users' batch. A barrier that goes on after a wait names the stages that wait as its first scope.
 struct CellBarrier {
   uint32_t cell = 0;  // with its age
   Range range;        // as merged; equals the cell's at first
@@ -37,15 +37,16 @@ struct CellBarrier {
   Accesses src_accesses = 0, dst_accesses = 0;
   Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
   BarrierTag tag = BarrierTag::hazard;
-  bool is_acquire = false;     // first use of a transient
-  bool wraps = false;          // its first scope lies in the frame before
-  std::vector<Event> sources;  // what must have happened
-  uint32_t first_use = 0;      // the slot that needs it; later than the group only for discards of a transient
+  bool is_acquire = false;                        // first use of a transient
+  bool wraps = false;                             // its first scope lies in the frame before
+  std::vector<Event> sources;                     // what must have happened
+  uint32_t first_use = 0;                         // the slot that needs it; later than the group only for discards of a transient
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
-  bool foreign = false;        // goes on after a wait, or comes before one; never dropped
-  Stages after_wait = 0;       // of the wait it goes on after, one of which it has to name
-  std::vector<Event> targets;  // on several queues: what comes after it on its own
-  std::string reason;          // "read after write"
+  bool foreign = false;                           // goes on after a wait, or comes before one; never dropped
+  Stages after_wait = 0;                          // of the wait it goes on after, one of which it has to name
+  std::vector<Event> targets;                     // on several queues: what comes after it on its own
+  bool within_frame = false;                      // of a transient: no state at the frame's ends rests on it
+  std::string reason;                             // "read after write"
 };
 
 struct CellBoundary {
@@ -67,8 +68,8 @@ struct SyncPlan {
   std::vector<std::vector<CellBarrier>> groups;  // by slot, see Schedule
   std::vector<BatchSync> batches;
   std::vector<bool> concurrent, scattered;  // by program resource; scattered: first used on several queues, so that its memory is not shared
-  std::vector<CellBoundary> entry, exit;     // one row a queue that has last users
-  std::vector<Acquire> acquires;  // resources by program index; image barriers filled when the plan is emitted
+  std::vector<CellBoundary> entry, exit;    // one row a queue that has last users
+  std::vector<Acquire> acquires;            // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
 };
 

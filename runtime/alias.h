@@ -148,8 +148,8 @@ class Owners {
 
 }  // namespace detail
 
-// `placed` by plan resource. Pre-condition: resources that share bytes may, see Sharing. Users on other queues have completed by then, by a wait of the
-// plan; what the acquire's barrier chains on is the wait's stages, which cover those of the first users. O(n log n + overlaps).
+// `placed` by plan resource. Pre-condition: resources that share bytes may, see Sharing. Users on other queues have completed by then, by a wait of
+// the plan; what the acquire's barrier chains on is the wait's stages, which cover those of the first users. O(n log n + overlaps).
 inline void find_hand_offs(const Plan& plan, std::span<const Placed> placed, HandOffs& out) {
   out.groups.clear(), out.images.clear();
   const Sharing sharing(plan);

@@ -131,7 +131,10 @@ void PlanEmitter::resources() {
     index(row, "bytes", r.bytes);
     row.number("stride", r.stride).number("copies", r.copies, 1);
     enumerator(row, "init", "InitKind", static_cast<size_t>(r.init), {"none", "clear"});
-    row.nested("init_value", clear_value(r.init_value)).flag("is_surface", r.is_surface).flag("no_alias", r.no_alias).flag("concurrent", r.concurrent);
+    row.nested("init_value", clear_value(r.init_value))
+        .flag("is_surface", r.is_surface)
+        .flag("no_alias", r.no_alias)
+        .flag("concurrent", r.concurrent);
     index(row, "import_slot", r.import_slot);
     row.number("estimated_bytes", r.estimated_bytes)
         .number("estimated_alignment", r.estimated_alignment, 1)

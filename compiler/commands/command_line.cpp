@@ -116,7 +116,9 @@ void add_graph(CLI::App& app, Run& run) {
   Subcommand<GraphOptions> command(app, run, "graph", "passes and the resources between them", show_graph);
   command->add_option("FILE", command.options->file, kRootFile)->required();
   auto* dot = command->add_flag("--dot", command.options->dot, "for Graphviz");
-  command->add_flag("--html", command.options->html, "a page to look at: schedule, barriers, lifetimes, memory, and the reason for everything clicked")->excludes(dot);
+  command
+      ->add_flag("--html", command.options->html, "a page to look at: schedule, barriers, lifetimes, memory, and the reason for everything clicked")
+      ->excludes(dot);
   add_plan_options(*command.command, command.options->compile);
 }
 

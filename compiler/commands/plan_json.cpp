@@ -203,7 +203,9 @@ struct PlanJson {
   }
 
   Json batch(const Batch& row) const {
-    const auto wait = [](const Wait& w) { return Json{{"queue", w.queue}, {"value", w.value}, {"stages", stage_names(w.stages)}, {"frames_ago", w.frames_ago}}; };
+    const auto wait = [](const Wait& w) {
+      return Json{{"queue", w.queue}, {"value", w.value}, {"stages", stage_names(w.stages)}, {"frames_ago", w.frames_ago}};
+    };
     const auto signal = [](const Signal& s) { return Json{{"value", s.value}, {"stages", stage_names(s.stages)}}; };
     return {{"queue", row.queue},
             {"waits", slice(plan.waits, row.first_wait, row.wait_count, wait)},
