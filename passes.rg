@@ -1,6 +1,6 @@
 // The frame of the demo: a courtyard under several hundred lights.
 //
-//   cull meshes ─ sun shadow ─ depth ─ depth range ─ cull lights ─ G-buffer ─ shade ─ glass ─ expose ─ resolve ─ bloom ─ tone map
+//   cull meshes ─ shadows ─ fog ─ depth ─ depth range ─ cull lights ─ G-buffer ─ shade ─ glass ─ expose ─ resolve ─ bloom ─ tone map
 module frame
 
 import "passes/view/view.rg"
@@ -8,13 +8,14 @@ import "passes/scene/scene.rg"
 import "passes/geometry/geometry.rg"
 import "passes/culling/culling.rg"
 import "passes/lighting/lighting.rg"
+import "passes/fog/fog.rg"
 import "passes/post/post.rg"
 import "passes/debug/debug.rg"
 
 target vulkan 1.3
 extent view = runtime(640, 360) max(3840, 2160)
 
-graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view after copy_src)
+graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene: Scene, surface backbuffer: rgba8 view after copy_src)
 {
   // ---- meshes -----------------------------------------------------------------------------------------------------
   buffer world_draws : DrawArguments[MAX_INSTANCES]
@@ -53,6 +54,39 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     depth  sun_shadow
     draw   host { per_draw PropDraw  vertex PropVertex }
   }
+
+  // ---- lamp shadows: kept until a lamp or what it shines on moves ---------------------------------------------------
+  buffer lamp_draws  : DrawArguments[MAX_LAMP_SHADOWS * MAX_INSTANCES]
+  image  lamp_shadow : d32f 256x256 layers MAX_LAMP_SHADOWS persistent init clear 0.0
+
+  if host lamps_moved {
+    pass lamp_cull : compute {
+      shader "passes/geometry/lamp_cull.comp" group 64 1 1
+      params camera
+      params lamps
+      read   scene.instances as storage
+      write  lamp_draws as storage
+      dispatch over [MAX_INSTANCES, MAX_LAMP_SHADOWS]
+    }
+    for slot in 0..MAX_LAMP_SHADOWS {
+      pass lamp_shadow_world[slot] : raster {
+        shader "passes/geometry/lamp_world.vert"
+        state  caster
+        params lamps
+        read   scene.instances as storage
+        read   scene.vertices as storage
+        read   scene.indices as storage
+        depth  lamp_shadow.layer(slot) clear 0.0
+        draw   indirect lamp_draws.bytes(slot * MAX_INSTANCES * 16, MAX_INSTANCES * 16) max MAX_INSTANCES
+      }
+    }
+  }
+
+  // ---- fog --------------------------------------------------------------------------------------------------------
+  image scattered     : r11g11b10f froxels  // light of all fog in front of a place
+  image transmittance : r16f froxels        // share of the light from behind it that comes through
+
+  use froxel_fog(camera, fog, scene.lights, scene.fog_volumes, scene.albedo_maps, sun_shadow, lamp_shadow, scattered, transmittance)
 
   // ---- depth ------------------------------------------------------------------------------------------------------
   image depth : d32f view
@@ -200,7 +234,9 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
   pass deferred_light : compute {
     shader "passes/lighting/deferred_light.comp" group 16 16 1
     params camera
+    params fog
     read   scene.lights as storage
+    read   scene.albedo_maps as sampled(surface_sampler)
     read   tile_records as storage
     read   tile_lights as storage
     read   zbins as storage
@@ -211,6 +247,9 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     read   emissive as sampled
     read   occlusion as sampled(linear_clamp)
     read   sun_shadow as sampled
+    read   lamp_shadow as sampled
+    read   scattered as sampled(linear_clamp)
+    read   transmittance as sampled(linear_clamp)
     write  hdr as storage
     dispatch over view
   }
@@ -218,14 +257,19 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     shader "passes/lighting/transparent.vert" "passes/lighting/transparent.frag"
     state  glass
     params camera
+    params fog
     read   scene.instances as storage
     read   scene.vertices as storage
     read   scene.indices as storage
     read   scene.materials as storage
     read   scene.lights as storage
+    read   scene.albedo_maps as sampled(surface_sampler)
     read   forward_lights as storage
     read   zbins as storage
     read   sun_shadow as sampled
+    read   lamp_shadow as sampled
+    read   scattered as sampled(linear_clamp)
+    read   transmittance as sampled(linear_clamp)
     color  hdr blend add(src_alpha, one_minus_src_alpha)
     depth  depth readonly
     draw   host { per_draw GlassDraw }
@@ -240,6 +284,7 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
   pass debug_view : compute {
     shader "passes/debug/debug_view.comp" group 8 8 1
     params camera
+    params fog
     read   depth as sampled
     read   albedo as sampled
     read   normal as sampled
@@ -248,6 +293,8 @@ graph frame(params camera: View, scene: Scene, surface backbuffer: rgba8 view af
     read   velocity as sampled
     read   occlusion as sampled(linear_clamp)
     read   hdr as sampled
+    read   scattered as sampled(linear_clamp)
+    read   transmittance as sampled(linear_clamp)
     read   tile_records as storage
     read   tile_lights as storage
     read   forward_lights as storage

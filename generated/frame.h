@@ -16,10 +16,20 @@ inline constexpr int32_t LIGHT_WORDS = 16;
 inline constexpr int32_t TEXTURE_SIZE = 256;
 inline constexpr int32_t TEXTURE_LAYERS = 32;
 inline constexpr int32_t TEXTURE_MIPS = 9;
-inline constexpr int32_t LIGHT_OMNI = 0;
-inline constexpr int32_t LIGHT_SPOT = 1;
+inline constexpr int32_t MAX_LAMP_SHADOWS = 8;
+inline constexpr int32_t LAMP_ROUND = 1;
+inline constexpr int32_t LAMP_SQUARE = 2;
+inline constexpr int32_t LAMP_SHADOW = 4;
+inline constexpr int32_t LAMP_SOFT = 8;
+inline constexpr int32_t LAMP_PROJECTED = 16;
+inline constexpr int32_t LAMP_AREA = 32;
+inline constexpr int32_t LAMP_TUBE = 64;
+inline constexpr int32_t LAMP_DARK = 128;
+inline constexpr int32_t LAMP_CLIPPED = 256;
+inline constexpr int32_t LAMP_FEATURES = 9;
 inline constexpr int32_t INSTANCE_SHADOW = 1;
 inline constexpr int32_t INSTANCE_GLASS = 2;
+inline constexpr int32_t MAX_FOG_VOLUMES = 32;
 inline constexpr int32_t COUNT_VISIBLE = 0;
 inline constexpr int32_t COUNT_OUTSIDE = 1;
 inline constexpr int32_t COUNT_SUN = 2;
@@ -36,6 +46,11 @@ inline constexpr int32_t LIGHT_PATH_FLAT = 1;
 inline constexpr int32_t LIGHT_PATH_ZBIN = 2;
 inline constexpr int32_t LIGHT_PATH_SLIDE = 3;
 inline constexpr int32_t LIGHT_PATH_ALL = 4;
+inline constexpr int32_t FOG_CLUSTER = 4;
+inline constexpr int32_t FOG_CASCADES = 4;
+inline constexpr int32_t FOG_SUN = 1;
+inline constexpr int32_t FOG_LIGHTS = 2;
+inline constexpr int32_t FOG_AMBIENT = 4;
 inline constexpr int32_t BLOOM_MIPS = 6;
 inline constexpr int32_t HISTOGRAM_BINS = 128;
 inline constexpr int32_t DEBUG_FINAL = 0;
@@ -53,7 +68,10 @@ inline constexpr int32_t DEBUG_ZBIN = 11;
 inline constexpr int32_t DEBUG_OCCLUSION = 12;
 inline constexpr int32_t DEBUG_VELOCITY = 13;
 inline constexpr int32_t DEBUG_FORWARD = 14;
-inline constexpr int32_t DEBUG_COUNT = 15;
+inline constexpr int32_t DEBUG_FOG = 15;
+inline constexpr int32_t DEBUG_THROUGH = 16;
+inline constexpr int32_t DEBUG_FEATURES = 17;
+inline constexpr int32_t DEBUG_COUNT = 18;
 
 struct View {  // passes/view/view.rg:6
   rg::mat4 world_to_view = {};
@@ -110,30 +128,62 @@ static_assert(offsetof(View, debug_view) == 500);
 static_assert(offsetof(View, light_path) == 504);
 static_assert(offsetof(View, noise) == 508);
 
-struct Light {  // passes/scene/scene.rg:13
+struct Light {  // passes/scene/scene.rg:24
   rg::vec3 position = {};
   float range = 0;
   rg::vec3 color = {};
-  uint32_t kind = 0;
+  uint32_t features = 0;
   rg::vec3 direction = {};
   float cos_outer = 0;
+  rg::vec3 side = {};
+  float sin_outer = 0;
   float nearest = 0;
   float farthest = 0;
-  float cone_scale = 0;
-  float sin_outer = 0;
+  float edge = 0;
+  float cot = 0;
+  rg::vec2 size = {};
+  uint32_t picture = 0;
+  uint32_t shadow = 0;
+  rg::vec4 clip[2] = {};
 };
-static_assert(sizeof(Light) == 64);
+static_assert(sizeof(Light) == 128);
 static_assert(offsetof(Light, range) == 12);
 static_assert(offsetof(Light, color) == 16);
-static_assert(offsetof(Light, kind) == 28);
+static_assert(offsetof(Light, features) == 28);
 static_assert(offsetof(Light, direction) == 32);
 static_assert(offsetof(Light, cos_outer) == 44);
-static_assert(offsetof(Light, nearest) == 48);
-static_assert(offsetof(Light, farthest) == 52);
-static_assert(offsetof(Light, cone_scale) == 56);
+static_assert(offsetof(Light, side) == 48);
 static_assert(offsetof(Light, sin_outer) == 60);
+static_assert(offsetof(Light, nearest) == 64);
+static_assert(offsetof(Light, farthest) == 68);
+static_assert(offsetof(Light, edge) == 72);
+static_assert(offsetof(Light, cot) == 76);
+static_assert(offsetof(Light, size) == 80);
+static_assert(offsetof(Light, picture) == 88);
+static_assert(offsetof(Light, shadow) == 92);
+static_assert(offsetof(Light, clip) == 96);
 
-struct Instance {  // passes/scene/scene.rg:28
+struct LampView {  // passes/scene/scene.rg:42
+  rg::vec3 position = {};
+  float range = 0;
+  rg::vec3 side = {};
+  float cot = 0;
+  rg::vec3 direction = {};
+  uint32_t used = 0;
+};
+static_assert(sizeof(LampView) == 48);
+static_assert(offsetof(LampView, range) == 12);
+static_assert(offsetof(LampView, side) == 16);
+static_assert(offsetof(LampView, cot) == 28);
+static_assert(offsetof(LampView, direction) == 32);
+static_assert(offsetof(LampView, used) == 44);
+
+struct LampViews {  // passes/scene/scene.rg:50
+  LampView view[8] = {};
+};
+static_assert(sizeof(LampViews) == 384);
+
+struct Instance {  // passes/scene/scene.rg:54
   rg::mat3x4 model = {};
   rg::mat3x4 previous = {};
   rg::vec3 center = {};
@@ -152,7 +202,7 @@ static_assert(offsetof(Instance, index_count) == 116);
 static_assert(offsetof(Instance, material) == 120);
 static_assert(offsetof(Instance, flags) == 124);
 
-struct Material {  // passes/scene/scene.rg:39
+struct Material {  // passes/scene/scene.rg:65
   rg::vec4 base_color = {};
   rg::vec3 emissive = {};
   float roughness = 0;
@@ -169,7 +219,7 @@ static_assert(offsetof(Material, bump) == 36);
 static_assert(offsetof(Material, albedo_layer) == 40);
 static_assert(offsetof(Material, surface_layer) == 44);
 
-struct Vertex {  // passes/scene/scene.rg:49
+struct Vertex {  // passes/scene/scene.rg:75
   rg::vec3 position = {};
   float u = 0;
   rg::vec3 normal = {};
@@ -182,7 +232,7 @@ static_assert(offsetof(Vertex, normal) == 16);
 static_assert(offsetof(Vertex, v) == 28);
 static_assert(offsetof(Vertex, tangent) == 32);
 
-struct PropVertex {  // passes/scene/scene.rg:56
+struct PropVertex {  // passes/scene/scene.rg:82
   rg::vec3 position = {};
   uint32_t normal = 0;
   uint32_t color = 0;
@@ -196,6 +246,23 @@ static_assert(offsetof(PropVertex, color) == 16);
 static_assert(offsetof(PropVertex, surface) == 20);
 static_assert(offsetof(PropVertex, part) == 24);
 static_assert(offsetof(PropVertex, spare) == 28);
+
+struct FogVolume {  // passes/scene/scene.rg:93
+  rg::mat3x4 to_box = {};
+  float density = 0;
+  float edge = 0;
+  uint32_t layer = 0;
+  float repeats = 0;
+  rg::vec2 scroll = {};
+  rg::vec2 spare = {};
+};
+static_assert(sizeof(FogVolume) == 80);
+static_assert(offsetof(FogVolume, density) == 48);
+static_assert(offsetof(FogVolume, edge) == 52);
+static_assert(offsetof(FogVolume, layer) == 56);
+static_assert(offsetof(FogVolume, repeats) == 60);
+static_assert(offsetof(FogVolume, scroll) == 64);
+static_assert(offsetof(FogVolume, spare) == 72);
 
 struct DrawArguments {  // passes/geometry/geometry.rg:4
   uint32_t vertex_count = 0;
@@ -238,9 +305,49 @@ static_assert(sizeof(HologramDraw) == 80 && offsetof(HologramDraw, color) == 64)
 struct TileRecord {  // passes/culling/culling.rg:11
   uint32_t count = 0;
   uint32_t overflow = 0;
+  uint32_t features = 0;
+  uint32_t spare = 0;
   uint32_t light[64] = {};
 };
-static_assert(sizeof(TileRecord) == 264 && offsetof(TileRecord, overflow) == 4 && offsetof(TileRecord, light) == 8);
+static_assert(sizeof(TileRecord) == 272);
+static_assert(offsetof(TileRecord, overflow) == 4);
+static_assert(offsetof(TileRecord, features) == 8);
+static_assert(offsetof(TileRecord, spare) == 12);
+static_assert(offsetof(TileRecord, light) == 16);
+
+struct Fog {  // passes/fog/fog.rg:17
+  rg::vec4 ends = {};
+  rg::vec4 previous_ends = {};
+  float start = 0;
+  float previous_start = 0;
+  float density = 0;
+  float ground = 0;
+  float thinning = 0;
+  float phase = 0;
+  float blend = 0;
+  uint32_t terms = 0;
+  rg::vec3 albedo = {};
+  uint32_t volume_count = 0;
+  rg::vec3 jitter = {};
+  float spare = 0;
+  rg::vec3 count = {};
+  uint32_t padding_0[1] = {};
+};
+static_assert(sizeof(Fog) == 112);
+static_assert(offsetof(Fog, previous_ends) == 16);
+static_assert(offsetof(Fog, start) == 32);
+static_assert(offsetof(Fog, previous_start) == 36);
+static_assert(offsetof(Fog, density) == 40);
+static_assert(offsetof(Fog, ground) == 44);
+static_assert(offsetof(Fog, thinning) == 48);
+static_assert(offsetof(Fog, phase) == 52);
+static_assert(offsetof(Fog, blend) == 56);
+static_assert(offsetof(Fog, terms) == 60);
+static_assert(offsetof(Fog, albedo) == 64);
+static_assert(offsetof(Fog, volume_count) == 76);
+static_assert(offsetof(Fog, jitter) == 80);
+static_assert(offsetof(Fog, spare) == 92);
+static_assert(offsetof(Fog, count) == 96);
 
 struct Exposure {  // passes/post/post.rg:6
   float scale = 0;
@@ -255,43 +362,52 @@ static_assert(offsetof(Exposure, valid) == 12);
 
 // Chosen at creation and by resize.
 struct Extents {
+  rg::Size3 froxels = {64, 36, 64};
   rg::Size2 view = {640, 360};
 };
 
 // What the engine brings each frame, in the declared state.
 struct Imports {
-  rg::Required<rg::ImportedBuffer> scene_lights;  // passes/scene/scene.rg:66
-  rg::Required<rg::ImportedBuffer> scene_instances;  // passes/scene/scene.rg:67
-  rg::Required<rg::ImportedBuffer> scene_materials;  // passes/scene/scene.rg:68
-  rg::Required<rg::ImportedBuffer> scene_vertices;  // passes/scene/scene.rg:69
-  rg::Required<rg::ImportedBuffer> scene_indices;  // passes/scene/scene.rg:70
-  rg::Required<rg::ImportedBuffer> scene_props;  // passes/scene/scene.rg:71
-  rg::Required<rg::ImportedBuffer> scene_prop_indices;  // passes/scene/scene.rg:72
-  rg::Required<rg::ImportedImage> scene_albedo_maps;  // passes/scene/scene.rg:73
-  rg::Required<rg::ImportedImage> scene_surface_maps;  // passes/scene/scene.rg:74
-  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:17
+  rg::Required<rg::ImportedBuffer> scene_lights;  // passes/scene/scene.rg:104
+  rg::Required<rg::ImportedBuffer> scene_fog_volumes;  // passes/scene/scene.rg:105
+  rg::Required<rg::ImportedBuffer> scene_instances;  // passes/scene/scene.rg:106
+  rg::Required<rg::ImportedBuffer> scene_materials;  // passes/scene/scene.rg:107
+  rg::Required<rg::ImportedBuffer> scene_vertices;  // passes/scene/scene.rg:108
+  rg::Required<rg::ImportedBuffer> scene_indices;  // passes/scene/scene.rg:109
+  rg::Required<rg::ImportedBuffer> scene_props;  // passes/scene/scene.rg:110
+  rg::Required<rg::ImportedBuffer> scene_prop_indices;  // passes/scene/scene.rg:111
+  rg::Required<rg::ImportedImage> scene_albedo_maps;  // passes/scene/scene.rg:112
+  rg::Required<rg::ImportedImage> scene_surface_maps;  // passes/scene/scene.rg:113
+  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:18
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View camera = {};  // passes.rg:17
+  View camera = {};  // passes.rg:18
+  Fog fog = {};  // passes.rg:18
+  LampViews lamps = {};  // passes.rg:18
+};
+
+// Latched when the frame is recorded.
+struct Conditions {
+  bool lamps_moved = false;
 };
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:47
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:48
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:70
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:104
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:173
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:207
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:217
+struct TransparentPass : rg::RasterRecording {  // passes.rg:256
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:233
+struct HologramPass : rg::RasterRecording {  // passes.rg:277
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -309,94 +425,118 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 44, .shaders = 29, .pipelines = 39, .barrier_groups = 31, .image_barriers = 60, .buffer_barriers = 19, .batches = 1,
-     .heap_bytes = 18103552, .unaliased_bytes = 19906560, .lower_bound_bytes = 18103552};
+    {.passes = 57, .shaders = 35, .pipelines = 52, .barrier_groups = 31, .image_barriers = 77, .buffer_barriers = 26, .batches = 1,
+     .heap_bytes = 19028480, .unaliased_bytes = 24714496, .lower_bound_bytes = 19028480};
 
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index mesh_cull_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index depth_world = 2;
-inline constexpr rg::Index depth_props = 3;
-inline constexpr rg::Index depth_range_first = 4;
-inline constexpr rg::Index depth_range_down_1 = 5;
-inline constexpr rg::Index depth_range_down_2 = 6;
-inline constexpr rg::Index depth_range_down_3 = 7;
-inline constexpr rg::Index depth_range_down_4 = 8;
-inline constexpr rg::Index depth_range_down_5 = 9;
-inline constexpr rg::Index depth_range_down_6 = 10;
-inline constexpr rg::Index depth_range_down_7 = 11;
-inline constexpr rg::Index zbin_build_clear = 12;
-inline constexpr rg::Index light_occlusion_clear = 13;
-inline constexpr rg::Index gbuffer_world = 14;
-inline constexpr rg::Index sun_shadow_world = 15;
-inline constexpr rg::Index zbin_build = 16;
-inline constexpr rg::Index light_occlusion = 17;
-inline constexpr rg::Index gbuffer_props = 18;
-inline constexpr rg::Index sun_shadow_props = 19;
-inline constexpr rg::Index zbin_pack = 20;
-inline constexpr rg::Index light_cull = 21;
-inline constexpr rg::Index tile_cull = 22;
-inline constexpr rg::Index ambient_occlusion = 23;
-inline constexpr rg::Index deferred_light = 24;
-inline constexpr rg::Index transparent = 25;
-inline constexpr rg::Index hologram = 26;
-inline constexpr rg::Index resolve_temporal = 27;
-inline constexpr rg::Index bloom_first = 28;
-inline constexpr rg::Index bloom_down_1 = 29;
-inline constexpr rg::Index bloom_down_2 = 30;
-inline constexpr rg::Index bloom_down_3 = 31;
-inline constexpr rg::Index bloom_down_4 = 32;
-inline constexpr rg::Index bloom_down_5 = 33;
-inline constexpr rg::Index bloom_up_1 = 34;
-inline constexpr rg::Index bloom_up_2 = 35;
-inline constexpr rg::Index luminance_clear = 36;
-inline constexpr rg::Index bloom_up_3 = 37;
-inline constexpr rg::Index luminance = 38;
-inline constexpr rg::Index bloom_up_4 = 39;
-inline constexpr rg::Index debug_view = 40;
-inline constexpr rg::Index expose = 41;
-inline constexpr rg::Index bloom_up_5 = 42;
-inline constexpr rg::Index tonemap = 43;
+inline constexpr rg::Index sun_shadow_world = 2;
+inline constexpr rg::Index lamp_cull = 3;
+inline constexpr rg::Index depth_world = 4;
+inline constexpr rg::Index sun_shadow_props = 5;
+inline constexpr rg::Index lamp_shadow_world_0 = 6;
+inline constexpr rg::Index lamp_shadow_world_1 = 7;
+inline constexpr rg::Index lamp_shadow_world_2 = 8;
+inline constexpr rg::Index depth_props = 9;
+inline constexpr rg::Index lamp_shadow_world_3 = 10;
+inline constexpr rg::Index lamp_shadow_world_4 = 11;
+inline constexpr rg::Index depth_range_first = 12;
+inline constexpr rg::Index lamp_shadow_world_5 = 13;
+inline constexpr rg::Index lamp_shadow_world_6 = 14;
+inline constexpr rg::Index depth_range_down_1 = 15;
+inline constexpr rg::Index lamp_shadow_world_7 = 16;
+inline constexpr rg::Index froxel_fog_cull = 17;
+inline constexpr rg::Index depth_range_down_2 = 18;
+inline constexpr rg::Index froxel_fog_inject = 19;
+inline constexpr rg::Index depth_range_down_3 = 20;
+inline constexpr rg::Index froxel_fog_light = 21;
+inline constexpr rg::Index depth_range_down_4 = 22;
+inline constexpr rg::Index froxel_fog_integrate = 23;
+inline constexpr rg::Index depth_range_down_5 = 24;
+inline constexpr rg::Index depth_range_down_6 = 25;
+inline constexpr rg::Index depth_range_down_7 = 26;
+inline constexpr rg::Index zbin_build_clear = 27;
+inline constexpr rg::Index light_occlusion_clear = 28;
+inline constexpr rg::Index gbuffer_world = 29;
+inline constexpr rg::Index zbin_build = 30;
+inline constexpr rg::Index light_occlusion = 31;
+inline constexpr rg::Index gbuffer_props = 32;
+inline constexpr rg::Index zbin_pack = 33;
+inline constexpr rg::Index light_cull = 34;
+inline constexpr rg::Index tile_cull = 35;
+inline constexpr rg::Index ambient_occlusion = 36;
+inline constexpr rg::Index deferred_light = 37;
+inline constexpr rg::Index transparent = 38;
+inline constexpr rg::Index hologram = 39;
+inline constexpr rg::Index resolve_temporal = 40;
+inline constexpr rg::Index bloom_first = 41;
+inline constexpr rg::Index bloom_down_1 = 42;
+inline constexpr rg::Index bloom_down_2 = 43;
+inline constexpr rg::Index debug_view = 44;
+inline constexpr rg::Index luminance_clear = 45;
+inline constexpr rg::Index bloom_down_3 = 46;
+inline constexpr rg::Index luminance = 47;
+inline constexpr rg::Index bloom_down_4 = 48;
+inline constexpr rg::Index expose = 49;
+inline constexpr rg::Index bloom_down_5 = 50;
+inline constexpr rg::Index bloom_up_1 = 51;
+inline constexpr rg::Index bloom_up_2 = 52;
+inline constexpr rg::Index bloom_up_3 = 53;
+inline constexpr rg::Index bloom_up_4 = 54;
+inline constexpr rg::Index bloom_up_5 = 55;
+inline constexpr rg::Index tonemap = 56;
 }
 
 // Indices of Plan::resources.
 namespace resource {
 inline constexpr rg::Index scene_lights = 0;
-inline constexpr rg::Index scene_instances = 1;
-inline constexpr rg::Index scene_materials = 2;
-inline constexpr rg::Index scene_vertices = 3;
-inline constexpr rg::Index scene_indices = 4;
-inline constexpr rg::Index scene_props = 5;
-inline constexpr rg::Index scene_prop_indices = 6;
-inline constexpr rg::Index scene_albedo_maps = 7;
-inline constexpr rg::Index scene_surface_maps = 8;
-inline constexpr rg::Index backbuffer = 9;
-inline constexpr rg::Index world_draws = 10;
-inline constexpr rg::Index sun_draws = 11;
-inline constexpr rg::Index cull_counts = 12;
-inline constexpr rg::Index sun_shadow = 13;
-inline constexpr rg::Index depth = 14;
-inline constexpr rg::Index depth_range = 15;
-inline constexpr rg::Index zbin_min = 16;
-inline constexpr rg::Index zbin_max = 17;
-inline constexpr rg::Index zbins = 18;
-inline constexpr rg::Index lights_seen = 19;
-inline constexpr rg::Index tile_lights = 20;
-inline constexpr rg::Index forward_lights = 21;
-inline constexpr rg::Index tile_records = 22;
-inline constexpr rg::Index albedo = 23;
-inline constexpr rg::Index normal = 24;
-inline constexpr rg::Index material = 25;
-inline constexpr rg::Index emissive = 26;
-inline constexpr rg::Index velocity = 27;
-inline constexpr rg::Index occlusion = 28;
-inline constexpr rg::Index hdr = 29;
-inline constexpr rg::Index debug_image = 30;
-inline constexpr rg::Index histogram = 31;
-inline constexpr rg::Index exposure = 32;
-inline constexpr rg::Index color = 33;
-inline constexpr rg::Index bloom = 34;
+inline constexpr rg::Index scene_fog_volumes = 1;
+inline constexpr rg::Index scene_instances = 2;
+inline constexpr rg::Index scene_materials = 3;
+inline constexpr rg::Index scene_vertices = 4;
+inline constexpr rg::Index scene_indices = 5;
+inline constexpr rg::Index scene_props = 6;
+inline constexpr rg::Index scene_prop_indices = 7;
+inline constexpr rg::Index scene_albedo_maps = 8;
+inline constexpr rg::Index scene_surface_maps = 9;
+inline constexpr rg::Index backbuffer = 10;
+inline constexpr rg::Index world_draws = 11;
+inline constexpr rg::Index sun_draws = 12;
+inline constexpr rg::Index cull_counts = 13;
+inline constexpr rg::Index sun_shadow = 14;
+inline constexpr rg::Index lamp_draws = 15;
+inline constexpr rg::Index lamp_shadow = 16;
+inline constexpr rg::Index scattered = 17;
+inline constexpr rg::Index transmittance = 18;
+inline constexpr rg::Index froxel_fog_cluster_volumes = 19;
+inline constexpr rg::Index froxel_fog_cluster_lights = 20;
+inline constexpr rg::Index froxel_fog_density = 21;
+inline constexpr rg::Index froxel_fog_inscatter = 22;
+inline constexpr rg::Index froxel_fog_extinction = 23;
+inline constexpr rg::Index froxel_fog_memory = 24;
+inline constexpr rg::Index depth = 25;
+inline constexpr rg::Index depth_range = 26;
+inline constexpr rg::Index zbin_min = 27;
+inline constexpr rg::Index zbin_max = 28;
+inline constexpr rg::Index zbins = 29;
+inline constexpr rg::Index lights_seen = 30;
+inline constexpr rg::Index tile_lights = 31;
+inline constexpr rg::Index forward_lights = 32;
+inline constexpr rg::Index tile_records = 33;
+inline constexpr rg::Index albedo = 34;
+inline constexpr rg::Index normal = 35;
+inline constexpr rg::Index material = 36;
+inline constexpr rg::Index emissive = 37;
+inline constexpr rg::Index velocity = 38;
+inline constexpr rg::Index occlusion = 39;
+inline constexpr rg::Index hdr = 40;
+inline constexpr rg::Index debug_image = 41;
+inline constexpr rg::Index histogram = 42;
+inline constexpr rg::Index exposure = 43;
+inline constexpr rg::Index color = 44;
+inline constexpr rg::Index bloom = 45;
 }
 
 class Frame {
@@ -407,7 +547,7 @@ class Frame {
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
-  rg::Status execute(const Imports& imports, const Params& params, R& recorder) {
+  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, R& recorder) {
     static constexpr rg::RecordFunction callbacks[] = {
         record<R, SunShadowPropsPass, [](R& r, SunShadowPropsPass& pass) { r.sun_shadow_props(pass); }>,
         record<R, DepthPropsPass, [](R& r, DepthPropsPass& pass) { r.depth_props(pass); }>,
@@ -415,10 +555,10 @@ class Frame {
         record<R, TransparentPass, [](R& r, TransparentPass& pass) { r.transparent(pass); }>,
         record<R, HologramPass, [](R& r, HologramPass& pass) { r.hologram(pass); }>,
     };
-    return submit(imports, params, callbacks, &recorder);
+    return submit(imports, params, conditions, callbacks, &recorder);
   }
 
-  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:22
+  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:23
   rg::Result<std::span<const uint32_t>> cull_counts();
 
   rg::GraphInstance& instance() { return instance_; }
@@ -429,7 +569,7 @@ class Frame {
     Pass pass{{recording}};
     method(*static_cast<R*>(user), pass);
   }
-  rg::Status submit(const Imports& imports, const Params& params, const rg::RecordFunction* callbacks, void* recorder);
+  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder);
   explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
   rg::GraphInstance instance_;
 };

@@ -5,18 +5,24 @@
 #include <string_view>
 
 #include "shaders/passes_geometry_mesh_cull.comp.spv.h"
+#include "shaders/passes_geometry_sun_world.vert.spv.h"
+#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
 #include "shaders/passes_geometry_depth_world.vert.spv.h"
+#include "shaders/passes_geometry_sun_props.vert.spv.h"
+#include "shaders/passes_geometry_lamp_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_props.vert.spv.h"
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
+#include "shaders/passes_fog_fog_cull.comp.spv.h"
+#include "shaders/passes_fog_fog_inject.comp.spv.h"
+#include "shaders/passes_fog_fog_light.comp.spv.h"
+#include "shaders/passes_fog_fog_integrate.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
-#include "shaders/passes_geometry_sun_world.vert.spv.h"
 #include "shaders/passes_culling_zbin_build.comp.spv.h"
 #include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.frag.spv.h"
-#include "shaders/passes_geometry_sun_props.vert.spv.h"
 #include "shaders/passes_culling_zbin_pack.comp.spv.h"
 #include "shaders/passes_culling_light_cull.comp.spv.h"
 #include "shaders/passes_culling_tile_cull.comp.spv.h"
@@ -27,10 +33,10 @@
 #include "shaders/passes_post_resolve_temporal.comp.spv.h"
 #include "shaders/passes_post_bloom_first.comp.spv.h"
 #include "shaders/passes_post_bloom_down.comp.spv.h"
-#include "shaders/passes_post_bloom_up.comp.spv.h"
-#include "shaders/passes_post_luminance.comp.spv.h"
 #include "shaders/passes_debug_debug_view.comp.spv.h"
+#include "shaders/passes_post_luminance.comp.spv.h"
 #include "shaders/passes_post_expose.comp.spv.h"
+#include "shaders/passes_post_bloom_up.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
 #include "shaders/passes_post_tonemap.frag.spv.h"
 
@@ -42,191 +48,247 @@ namespace resource = frame::resource;
 
 constexpr Expr kExprs[] = {
     {.op = ExprOp::constant, .value = 256},  // 0
-    {.op = ExprOp::extent},  // 1
-    {.op = ExprOp::extent, .value = 1},  // 2
+    {.op = ExprOp::extent, .value = 3},  // 1
+    {.op = ExprOp::extent, .value = 4},  // 2
     {.op = ExprOp::constant, .value = 1024},  // 3
     {.op = ExprOp::constant, .value = 4},  // 4
     {.op = ExprOp::constant, .value = 1536},  // 5
-    {.op = ExprOp::constant, .value = 8},  // 6
-    {.op = ExprOp::ceil_div, .a = 1, .b = 6},  // 7
-    {.op = ExprOp::ceil_div, .a = 2, .b = 6},  // 8
-    {.op = ExprOp::constant, .value = 8192},  // 9
-    {.op = ExprOp::constant, .value = 16},  // 10
-    {.op = ExprOp::mul, .a = 7, .b = 8},  // 11
-    {.op = ExprOp::mul, .a = 11, .b = 10},  // 12
-    {.op = ExprOp::ceil_div, .a = 1, .b = 10},  // 13
-    {.op = ExprOp::ceil_div, .a = 2, .b = 10},  // 14
-    {.op = ExprOp::mul, .a = 13, .b = 14},  // 15
-    {.op = ExprOp::constant, .value = 2},  // 16
-    {.op = ExprOp::floor_div, .a = 1, .b = 16},  // 17
-    {.op = ExprOp::floor_div, .a = 2, .b = 16},  // 18
-    {.op = ExprOp::constant, .value = 128},  // 19
-    {.op = ExprOp::constant, .value = 1},  // 20
-    {.op = ExprOp::mip, .a = 7, .b = 20},  // 21
-    {.op = ExprOp::mip, .a = 8, .b = 20},  // 22
-    {.op = ExprOp::mip, .a = 7, .b = 16},  // 23
-    {.op = ExprOp::mip, .a = 8, .b = 16},  // 24
-    {.op = ExprOp::constant, .value = 3},  // 25
-    {.op = ExprOp::mip, .a = 7, .b = 25},  // 26
-    {.op = ExprOp::mip, .a = 8, .b = 25},  // 27
-    {.op = ExprOp::mip, .a = 7, .b = 4},  // 28
-    {.op = ExprOp::mip, .a = 8, .b = 4},  // 29
-    {.op = ExprOp::constant, .value = 5},  // 30
-    {.op = ExprOp::mip, .a = 7, .b = 30},  // 31
-    {.op = ExprOp::mip, .a = 8, .b = 30},  // 32
-    {.op = ExprOp::constant, .value = 6},  // 33
-    {.op = ExprOp::mip, .a = 7, .b = 33},  // 34
-    {.op = ExprOp::mip, .a = 8, .b = 33},  // 35
-    {.op = ExprOp::constant, .value = 7},  // 36
-    {.op = ExprOp::mip, .a = 7, .b = 36},  // 37
-    {.op = ExprOp::mip, .a = 8, .b = 36},  // 38
-    {.op = ExprOp::constant, .value = 512},  // 39
-    {.op = ExprOp::mip, .a = 17, .b = 20},  // 40
-    {.op = ExprOp::mip, .a = 18, .b = 20},  // 41
-    {.op = ExprOp::mip, .a = 17, .b = 16},  // 42
-    {.op = ExprOp::mip, .a = 18, .b = 16},  // 43
-    {.op = ExprOp::mip, .a = 17, .b = 25},  // 44
-    {.op = ExprOp::mip, .a = 18, .b = 25},  // 45
-    {.op = ExprOp::mip, .a = 17, .b = 4},  // 46
-    {.op = ExprOp::mip, .a = 18, .b = 4},  // 47
-    {.op = ExprOp::mip, .a = 17, .b = 30},  // 48
-    {.op = ExprOp::mip, .a = 18, .b = 30},  // 49
-    {.op = ExprOp::constant, .value = 64},  // 50
-    {.op = ExprOp::mul, .b = 50},  // 51
-    {.op = ExprOp::constant, .value = 128},  // 52
-    {.op = ExprOp::mul, .b = 52},  // 53
-    {.op = ExprOp::constant, .value = 48},  // 54
-    {.op = ExprOp::mul, .b = 54},  // 55
-    {.op = ExprOp::constant, .value = 4},  // 56
-    {.op = ExprOp::mul, .b = 56},  // 57
-    {.op = ExprOp::constant, .value = 32},  // 58
-    {.op = ExprOp::mul, .b = 58},  // 59
-    {.op = ExprOp::constant, .value = 16},  // 60
-    {.op = ExprOp::mul, .a = 3, .b = 60},  // 61
-    {.op = ExprOp::mul, .a = 4, .b = 56},  // 62
-    {.op = ExprOp::mul, .a = 9, .b = 56},  // 63
-    {.op = ExprOp::mul, .a = 10, .b = 56},  // 64
-    {.op = ExprOp::mul, .a = 12, .b = 56},  // 65
-    {.op = ExprOp::constant, .value = 264},  // 66
-    {.op = ExprOp::mul, .a = 15, .b = 66},  // 67
-    {.op = ExprOp::mul, .a = 19, .b = 56},  // 68
-    {.op = ExprOp::mul, .a = 20, .b = 60},  // 69
-    {.op = ExprOp::ceil_div, .a = 3, .b = 50},  // 70
-    {.op = ExprOp::constant, .value = 8},  // 71
-    {.op = ExprOp::ceil_div, .a = 7, .b = 71},  // 72
-    {.op = ExprOp::ceil_div, .a = 8, .b = 71},  // 73
-    {.op = ExprOp::ceil_div, .a = 21, .b = 71},  // 74
-    {.op = ExprOp::ceil_div, .a = 22, .b = 71},  // 75
-    {.op = ExprOp::ceil_div, .a = 23, .b = 71},  // 76
-    {.op = ExprOp::ceil_div, .a = 24, .b = 71},  // 77
-    {.op = ExprOp::ceil_div, .a = 26, .b = 71},  // 78
-    {.op = ExprOp::ceil_div, .a = 27, .b = 71},  // 79
-    {.op = ExprOp::ceil_div, .a = 28, .b = 71},  // 80
-    {.op = ExprOp::ceil_div, .a = 29, .b = 71},  // 81
-    {.op = ExprOp::ceil_div, .a = 31, .b = 71},  // 82
-    {.op = ExprOp::ceil_div, .a = 32, .b = 71},  // 83
-    {.op = ExprOp::ceil_div, .a = 34, .b = 71},  // 84
-    {.op = ExprOp::ceil_div, .a = 35, .b = 71},  // 85
-    {.op = ExprOp::ceil_div, .a = 37, .b = 71},  // 86
-    {.op = ExprOp::ceil_div, .a = 38, .b = 71},  // 87
-    {.op = ExprOp::ceil_div, .a = 39, .b = 50},  // 88
-    {.op = ExprOp::ceil_div, .a = 9, .b = 50},  // 89
-    {.op = ExprOp::ceil_div, .a = 17, .b = 71},  // 90
-    {.op = ExprOp::ceil_div, .a = 18, .b = 71},  // 91
-    {.op = ExprOp::ceil_div, .a = 1, .b = 60},  // 92
-    {.op = ExprOp::ceil_div, .a = 2, .b = 60},  // 93
-    {.op = ExprOp::ceil_div, .a = 1, .b = 71},  // 94
-    {.op = ExprOp::ceil_div, .a = 2, .b = 71},  // 95
-    {.op = ExprOp::ceil_div, .a = 40, .b = 71},  // 96
-    {.op = ExprOp::ceil_div, .a = 41, .b = 71},  // 97
-    {.op = ExprOp::ceil_div, .a = 42, .b = 71},  // 98
-    {.op = ExprOp::ceil_div, .a = 43, .b = 71},  // 99
-    {.op = ExprOp::ceil_div, .a = 44, .b = 71},  // 100
-    {.op = ExprOp::ceil_div, .a = 45, .b = 71},  // 101
-    {.op = ExprOp::ceil_div, .a = 46, .b = 71},  // 102
-    {.op = ExprOp::ceil_div, .a = 47, .b = 71},  // 103
-    {.op = ExprOp::ceil_div, .a = 48, .b = 71},  // 104
-    {.op = ExprOp::ceil_div, .a = 49, .b = 71},  // 105
-    {.op = ExprOp::ceil_div, .a = 17, .b = 60},  // 106
-    {.op = ExprOp::ceil_div, .a = 18, .b = 60},  // 107
-    {.op = ExprOp::constant, .value = 3},  // 108
+    {.op = ExprOp::constant, .value = 8192},  // 6
+    {.op = ExprOp::extent},  // 7
+    {.op = ExprOp::extent, .value = 1},  // 8
+    {.op = ExprOp::extent, .value = 2},  // 9
+    {.op = ExprOp::ceil_div, .a = 7, .b = 4},  // 10
+    {.op = ExprOp::ceil_div, .a = 8, .b = 4},  // 11
+    {.op = ExprOp::ceil_div, .a = 9, .b = 4},  // 12
+    {.op = ExprOp::mul, .a = 10, .b = 11},  // 13
+    {.op = ExprOp::mul, .a = 13, .b = 12},  // 14
+    {.op = ExprOp::mul, .a = 14, .b = 12},  // 15
+    {.op = ExprOp::constant, .value = 16},  // 16
+    {.op = ExprOp::mul, .a = 15, .b = 16},  // 17
+    {.op = ExprOp::constant, .value = 8},  // 18
+    {.op = ExprOp::ceil_div, .a = 1, .b = 18},  // 19
+    {.op = ExprOp::ceil_div, .a = 2, .b = 18},  // 20
+    {.op = ExprOp::mul, .a = 19, .b = 20},  // 21
+    {.op = ExprOp::mul, .a = 21, .b = 16},  // 22
+    {.op = ExprOp::ceil_div, .a = 1, .b = 16},  // 23
+    {.op = ExprOp::ceil_div, .a = 2, .b = 16},  // 24
+    {.op = ExprOp::mul, .a = 23, .b = 24},  // 25
+    {.op = ExprOp::constant, .value = 2},  // 26
+    {.op = ExprOp::floor_div, .a = 1, .b = 26},  // 27
+    {.op = ExprOp::floor_div, .a = 2, .b = 26},  // 28
+    {.op = ExprOp::constant, .value = 128},  // 29
+    {.op = ExprOp::constant, .value = 1},  // 30
+    {.op = ExprOp::constant},  // 31
+    {.op = ExprOp::constant, .value = 16384},  // 32
+    {.op = ExprOp::constant, .value = 32768},  // 33
+    {.op = ExprOp::constant, .value = 49152},  // 34
+    {.op = ExprOp::constant, .value = 65536},  // 35
+    {.op = ExprOp::constant, .value = 81920},  // 36
+    {.op = ExprOp::constant, .value = 98304},  // 37
+    {.op = ExprOp::constant, .value = 114688},  // 38
+    {.op = ExprOp::mip, .a = 19, .b = 30},  // 39
+    {.op = ExprOp::mip, .a = 20, .b = 30},  // 40
+    {.op = ExprOp::mip, .a = 19, .b = 26},  // 41
+    {.op = ExprOp::mip, .a = 20, .b = 26},  // 42
+    {.op = ExprOp::constant, .value = 3},  // 43
+    {.op = ExprOp::mip, .a = 19, .b = 43},  // 44
+    {.op = ExprOp::mip, .a = 20, .b = 43},  // 45
+    {.op = ExprOp::mip, .a = 19, .b = 4},  // 46
+    {.op = ExprOp::mip, .a = 20, .b = 4},  // 47
+    {.op = ExprOp::constant, .value = 5},  // 48
+    {.op = ExprOp::mip, .a = 19, .b = 48},  // 49
+    {.op = ExprOp::mip, .a = 20, .b = 48},  // 50
+    {.op = ExprOp::constant, .value = 6},  // 51
+    {.op = ExprOp::mip, .a = 19, .b = 51},  // 52
+    {.op = ExprOp::mip, .a = 20, .b = 51},  // 53
+    {.op = ExprOp::constant, .value = 7},  // 54
+    {.op = ExprOp::mip, .a = 19, .b = 54},  // 55
+    {.op = ExprOp::mip, .a = 20, .b = 54},  // 56
+    {.op = ExprOp::constant, .value = 512},  // 57
+    {.op = ExprOp::mip, .a = 27, .b = 30},  // 58
+    {.op = ExprOp::mip, .a = 28, .b = 30},  // 59
+    {.op = ExprOp::mip, .a = 27, .b = 26},  // 60
+    {.op = ExprOp::mip, .a = 28, .b = 26},  // 61
+    {.op = ExprOp::mip, .a = 27, .b = 43},  // 62
+    {.op = ExprOp::mip, .a = 28, .b = 43},  // 63
+    {.op = ExprOp::mip, .a = 27, .b = 4},  // 64
+    {.op = ExprOp::mip, .a = 28, .b = 4},  // 65
+    {.op = ExprOp::mip, .a = 27, .b = 48},  // 66
+    {.op = ExprOp::mip, .a = 28, .b = 48},  // 67
+    {.op = ExprOp::constant, .value = 128},  // 68
+    {.op = ExprOp::mul, .b = 68},  // 69
+    {.op = ExprOp::constant, .value = 80},  // 70
+    {.op = ExprOp::mul, .b = 70},  // 71
+    {.op = ExprOp::constant, .value = 48},  // 72
+    {.op = ExprOp::mul, .b = 72},  // 73
+    {.op = ExprOp::constant, .value = 4},  // 74
+    {.op = ExprOp::mul, .b = 74},  // 75
+    {.op = ExprOp::constant, .value = 32},  // 76
+    {.op = ExprOp::mul, .b = 76},  // 77
+    {.op = ExprOp::constant, .value = 16},  // 78
+    {.op = ExprOp::mul, .a = 3, .b = 78},  // 79
+    {.op = ExprOp::mul, .a = 4, .b = 74},  // 80
+    {.op = ExprOp::mul, .a = 6, .b = 78},  // 81
+    {.op = ExprOp::mul, .a = 15, .b = 74},  // 82
+    {.op = ExprOp::mul, .a = 17, .b = 74},  // 83
+    {.op = ExprOp::mul, .a = 6, .b = 74},  // 84
+    {.op = ExprOp::mul, .a = 16, .b = 74},  // 85
+    {.op = ExprOp::mul, .a = 22, .b = 74},  // 86
+    {.op = ExprOp::constant, .value = 272},  // 87
+    {.op = ExprOp::mul, .a = 25, .b = 87},  // 88
+    {.op = ExprOp::mul, .a = 29, .b = 74},  // 89
+    {.op = ExprOp::mul, .a = 30, .b = 78},  // 90
+    {.op = ExprOp::constant, .value = 64},  // 91
+    {.op = ExprOp::ceil_div, .a = 3, .b = 91},  // 92
+    {.op = ExprOp::constant, .value = 8},  // 93
+    {.op = ExprOp::ceil_div, .a = 19, .b = 93},  // 94
+    {.op = ExprOp::ceil_div, .a = 20, .b = 93},  // 95
+    {.op = ExprOp::ceil_div, .a = 39, .b = 93},  // 96
+    {.op = ExprOp::ceil_div, .a = 40, .b = 93},  // 97
+    {.op = ExprOp::ceil_div, .a = 41, .b = 93},  // 98
+    {.op = ExprOp::ceil_div, .a = 42, .b = 93},  // 99
+    {.op = ExprOp::ceil_div, .a = 44, .b = 93},  // 100
+    {.op = ExprOp::ceil_div, .a = 45, .b = 93},  // 101
+    {.op = ExprOp::ceil_div, .a = 46, .b = 93},  // 102
+    {.op = ExprOp::ceil_div, .a = 47, .b = 93},  // 103
+    {.op = ExprOp::ceil_div, .a = 7, .b = 93},  // 104
+    {.op = ExprOp::ceil_div, .a = 8, .b = 93},  // 105
+    {.op = ExprOp::ceil_div, .a = 49, .b = 93},  // 106
+    {.op = ExprOp::ceil_div, .a = 50, .b = 93},  // 107
+    {.op = ExprOp::ceil_div, .a = 52, .b = 93},  // 108
+    {.op = ExprOp::ceil_div, .a = 53, .b = 93},  // 109
+    {.op = ExprOp::ceil_div, .a = 55, .b = 93},  // 110
+    {.op = ExprOp::ceil_div, .a = 56, .b = 93},  // 111
+    {.op = ExprOp::ceil_div, .a = 57, .b = 91},  // 112
+    {.op = ExprOp::ceil_div, .a = 6, .b = 91},  // 113
+    {.op = ExprOp::ceil_div, .a = 27, .b = 93},  // 114
+    {.op = ExprOp::ceil_div, .a = 28, .b = 93},  // 115
+    {.op = ExprOp::ceil_div, .a = 1, .b = 78},  // 116
+    {.op = ExprOp::ceil_div, .a = 2, .b = 78},  // 117
+    {.op = ExprOp::ceil_div, .a = 1, .b = 93},  // 118
+    {.op = ExprOp::ceil_div, .a = 2, .b = 93},  // 119
+    {.op = ExprOp::ceil_div, .a = 58, .b = 93},  // 120
+    {.op = ExprOp::ceil_div, .a = 59, .b = 93},  // 121
+    {.op = ExprOp::ceil_div, .a = 60, .b = 93},  // 122
+    {.op = ExprOp::ceil_div, .a = 61, .b = 93},  // 123
+    {.op = ExprOp::ceil_div, .a = 62, .b = 93},  // 124
+    {.op = ExprOp::ceil_div, .a = 63, .b = 93},  // 125
+    {.op = ExprOp::ceil_div, .a = 27, .b = 78},  // 126
+    {.op = ExprOp::ceil_div, .a = 28, .b = 78},  // 127
+    {.op = ExprOp::ceil_div, .a = 64, .b = 93},  // 128
+    {.op = ExprOp::ceil_div, .a = 65, .b = 93},  // 129
+    {.op = ExprOp::ceil_div, .a = 66, .b = 93},  // 130
+    {.op = ExprOp::ceil_div, .a = 67, .b = 93},  // 131
+    {.op = ExprOp::constant, .value = 3},  // 132
+    {.op = ExprOp::constant, .value = 49152},  // 133
+    {.op = ExprOp::constant, .value = 32768},  // 134
+    {.op = ExprOp::constant, .value = 81920},  // 135
+    {.op = ExprOp::constant, .value = 114688},  // 136
+    {.op = ExprOp::constant, .value = 16384},  // 137
+    {.op = ExprOp::constant, .value = 65536},  // 138
+    {.op = ExprOp::constant, .value = 98304},  // 139
 };
 
 constexpr Extent kExtents[] = {
+    {.name = "froxels", .axes = 3, .initial = {64, 36, 64}, .maximum = {160, 96, 128}},
     {.name = "view", .initial = {640, 360, 1}, .maximum = {3840, 2160, 1}},
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 51, .stride = 64, .import_slot = 0,
-     .estimated_bytes = 256, .line = 66, .file = "passes/scene/scene.rg"},
-    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 53, .stride = 128,
-     .import_slot = 1, .estimated_bytes = 256, .line = 67, .file = "passes/scene/scene.rg"},
-    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 55, .stride = 48,
-     .import_slot = 2, .estimated_bytes = 256, .line = 68, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 55, .stride = 48, .import_slot = 3,
-     .estimated_bytes = 256, .line = 69, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 57, .stride = 4, .import_slot = 4,
-     .estimated_bytes = 256, .line = 70, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 59, .stride = 32, .import_slot = 5,
-     .estimated_bytes = 256, .line = 71, .file = "passes/scene/scene.rg"},
-    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 57, .stride = 4,
-     .import_slot = 6, .estimated_bytes = 256, .line = 72, .file = "passes/scene/scene.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128, .import_slot = 0,
+     .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
+    {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 71, .stride = 80,
+     .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
+    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
+     .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
+    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
+     .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48, .import_slot = 4,
+     .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4, .import_slot = 5,
+     .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32, .import_slot = 6,
+     .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
+    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 75, .stride = 4,
+     .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
-     .aspects = aspect_color, .usage = 4, .import_slot = 7, .estimated_bytes = 11206656, .line = 73, .file = "passes/scene/scene.rg"},
+     .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
-     .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 74, .file = "passes/scene/scene.rg"},
+     .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 9, .estimated_bytes = 983040, .line = 17, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 61, .stride = 16, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .line = 20, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 61, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
-     .estimated_offset = 9568512, .line = 21, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 62, .stride = 4,
-     .estimated_bytes = 256, .line = 22, .file = "passes.rg"},
+     .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
+     .estimated_offset = 18153472, .line = 21, .file = "passes.rg"},
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
+     .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4,
+     .estimated_bytes = 256, .line = 23, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
-     .estimated_alignment = 65536, .line = 35, .file = "passes.rg"},
+     .line = 36, .file = "passes.rg"},
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .estimated_bytes = 131072,
+     .estimated_offset = 12992512, .line = 59, .file = "passes.rg"},
+    {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
+     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 60, .file = "passes.rg"},
+    {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
+     .usage = 12, .estimated_bytes = 589824, .estimated_offset = 17235968, .line = 86, .file = "passes.rg"},
+    {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
+     .usage = 12, .estimated_bytes = 327680, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
+     .estimated_offset = 12845056, .line = 38, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
+     .estimated_offset = 10485760, .line = 39, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
+     .usage = 12, .estimated_bytes = 327680, .estimated_offset = 13434880, .line = 40, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
+     .usage = 12, .estimated_bytes = 589824, .estimated_offset = 12845056, .line = 41, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.extinction", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
+     .usage = 12, .estimated_bytes = 327680, .estimated_offset = 13762560, .line = 42, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
+     .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
+     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 43,
+     .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 11337728, .line = 58, .file = "passes.rg"},
-    {.name = "depth_range", .format = Format{103}, .width = 7, .height = 8, .mips = 8, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 80, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 63, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 9502720, .line = 98, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 63, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 9535488, .line = 99, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 63, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 18070784, .line = 100, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 64, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 9568256, .line = 101, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 65, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 17367040, .line = 102, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 65, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 17597440, .line = 103, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 67, .stride = 264, .estimated_bytes = 242944,
-     .estimated_alignment = 256, .estimated_offset = 17827840, .line = 104, .file = "passes.rg"},
+     .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
+    {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
+     .estimated_bytes = 65536, .estimated_offset = 10420224, .line = 114, .file = "passes.rg"},
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_offset = 10485760,
+     .line = 132, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_offset = 10518528,
+     .line = 133, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_offset = 18995712,
+     .line = 134, .file = "passes.rg"},
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_offset = 10551296,
+     .line = 135, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+     .estimated_offset = 18284544, .line = 136, .file = "passes.rg"},
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+     .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 272, .estimated_bytes = 250368,
+     .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 149, .file = "passes.rg"},
+     .estimated_offset = 12320768, .line = 183, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 150, .file = "passes.rg"},
+     .estimated_offset = 13303808, .line = 184, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 151, .file = "passes.rg"},
+     .estimated_offset = 14286848, .line = 185, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 152, .file = "passes.rg"},
+     .estimated_offset = 15269888, .line = 186, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 153, .file = "passes.rg"},
-    {.name = "occlusion", .format = Format{76}, .width = 17, .height = 18, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 189, .file = "passes.rg"},
+     .estimated_offset = 16252928, .line = 187, .file = "passes.rg"},
+    {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
+     .estimated_offset = 18153472, .line = 223, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 190, .file = "passes.rg"},
+     .estimated_offset = 10420224, .line = 224, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 655360, .line = 239, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 68, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1638400, .line = 260, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 69, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 261, .file = "passes.rg"},
+     .line = 283, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 89, .stride = 4, .estimated_bytes = 512, .estimated_offset = 1638400,
+     .line = 307, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 90, .stride = 16, .copies = 2,
+     .init = InitKind::clear, .estimated_bytes = 256, .line = 308, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 262, .file = "passes.rg"},
-    {.name = "bloom", .format = Format{97}, .width = 17, .height = 18, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .line = 263, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 309, .file = "passes.rg"},
+    {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
+     .estimated_offset = 983040, .line = 310, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -238,6 +300,17 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    // sun_shadow_world
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
+    // lamp_cull
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
@@ -245,31 +318,150 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
+    // sun_shadow_props
+    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
+    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
+    // sun_shadow_props
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    // lamp_shadow_world[0]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 31, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[0]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
+    // lamp_shadow_world[1]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[1]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    // lamp_shadow_world[2]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
     // depth_props
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
+    // lamp_shadow_world[3]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 34, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[3]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
+    // lamp_shadow_world[4]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    // lamp_shadow_world[5]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    // lamp_shadow_world[6]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    // lamp_shadow_world[7]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 38, .size = 32}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.cull
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.cull
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .writes = true},  // froxel_fog.cull
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .writes = true},  // froxel_fog.cull
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.inject
+    // froxel_fog.inject
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.inject
+    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.inject
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.light
+    // froxel_fog.light
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.light
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.light
+    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
+    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
+    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
+    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.integrate
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.integrate
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
@@ -306,14 +498,6 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_world
     {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // gbuffer_world
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    // sun_shadow_world
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
     {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
      .writes = true},  // zbin_build
@@ -338,13 +522,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::color_attachment_read | access::color_attachment_write, .layout = Layout::color_attachment, .writes = true},  // gbuffer_props
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_props
-    // sun_shadow_props
-    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
-    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
-    // sun_shadow_props
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // zbin_pack
@@ -368,6 +545,8 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // ambient_occlusion
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
@@ -385,6 +564,12 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light
     // transparent
@@ -393,10 +578,18 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // transparent
     {.ref = {.resource = resource::scene_materials}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // transparent
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // transparent
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // transparent
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // transparent
     {.ref = {.resource = resource::zbins}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // transparent
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // transparent
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // transparent
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // transparent
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // transparent
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_read | access::color_attachment_write, .layout = Layout::color_attachment, .writes = true},  // transparent
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
@@ -427,39 +620,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
-    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
-    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
-     .layout = Layout::shader_read_only},  // luminance
-    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // debug_view
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -476,15 +636,52 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // debug_view
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
      .layout = Layout::shader_read_only},  // debug_view
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // debug_view
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // debug_view
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::forward_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // debug_view
+    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
+     .layout = Layout::shader_read_only},  // luminance
+    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
     {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // expose
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[5]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
@@ -502,126 +699,173 @@ constexpr Access kAccesses[] = {
 
 constexpr Pass kPasses[] = {
     {.name = "mesh_cull.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 24, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 25, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 70, .y = 20, .z = 20}, .line = 24, .file = "passes.rg"},
-    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 92, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
+    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
      .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 60, .file = "passes.rg"},
-    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 10, .access_count = 3, .rendering = 1, .pipeline = 2,
-     .first_binding = 9, .binding_count = 1, .first_params = 2, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 70, .file = "passes.rg"},
-    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 13, .access_count = 2, .pipeline = 3,
-     .first_binding = 10, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 72, .y = 73, .z = 20}, .line = 82, .file = "passes.rg"},
-    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
-     .first_binding = 12, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 74, .y = 75, .z = 20}, .mip_limit_count = 1, .line = 89,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 38, .file = "passes.rg"},
+    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 10, .access_count = 2, .pipeline = 2,
+     .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 92, .y = 18, .z = 30},
+     .line = 63, .file = "passes.rg"},
+    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
+     .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
+    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 2, .pipeline = 4,
+     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 48, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 3,
+     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 4,
+     .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 30, .access_count = 5, .rendering = 5,
+     .pipeline = 7, .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 6, .pipeline = 8,
+     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 7,
+     .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 8,
+     .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
+     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 94, .y = 95, .z = 30}, .line = 116, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 9,
+     .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 10,
+     .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
+     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 96, .y = 97, .z = 30}, .mip_limit_count = 1, .line = 123,
      .file = "passes.rg"},
-    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 17, .access_count = 2, .pipeline = 5,
-     .first_binding = 14, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 76, .y = 77, .z = 20}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 19, .access_count = 2, .pipeline = 6,
-     .first_binding = 16, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 78, .y = 79, .z = 20}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 21, .access_count = 2, .pipeline = 7,
-     .first_binding = 18, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 80, .y = 81, .z = 20}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 23, .access_count = 2, .pipeline = 8,
-     .first_binding = 20, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 82, .y = 83, .z = 20}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 25, .access_count = 2, .pipeline = 9,
-     .first_binding = 22, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 84, .y = 85, .z = 20}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 27, .access_count = 2, .pipeline = 10,
-     .first_binding = 24, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 86, .y = 87, .z = 20}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 89, .file = "passes.rg"},
-    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 29, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 106, .file = "passes.rg"},
-    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 31, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 121, .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 32, .access_count = 13, .rendering = 2, .pipeline = 11,
-     .first_binding = 26, .binding_count = 7, .first_params = 3, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 155, .file = "passes.rg"},
-    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 45, .access_count = 5, .rendering = 3, .pipeline = 12,
-     .first_binding = 33, .binding_count = 4, .first_params = 4, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 37, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 50, .access_count = 3, .pipeline = 13, .first_binding = 37,
-     .binding_count = 4, .first_params = 5, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 39, .y = 20, .z = 20}, .line = 106,
+    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 11,
+     .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
+     .line = 72, .file = "passes.rg"},
+    {.name = "froxel_fog.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
+     .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+     .line = 45, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
+     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 98, .y = 99, .z = 30}, .first_mip_limit = 1,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "froxel_fog.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
+     .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+     .line = 55, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
+     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 100, .y = 101, .z = 30}, .first_mip_limit = 3,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "froxel_fog.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
+     .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+     .line = 65, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
+     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 103, .z = 30}, .first_mip_limit = 5,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "froxel_fog.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
+     .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 30}, .line = 81, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
+     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 30}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
+     .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 108, .y = 109, .z = 30}, .first_mip_limit = 9,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 99, .access_count = 2, .pipeline = 25,
+     .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 110, .y = 111, .z = 30}, .first_mip_limit = 11,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 101, .access_count = 2,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 140, .file = "passes.rg"},
+    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 155, .file = "passes.rg"},
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
+     .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 189, .file = "passes.rg"},
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
+     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 140,
      .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 53, .access_count = 3, .pipeline = 14,
-     .first_binding = 41, .binding_count = 4, .first_params = 6, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 88, .y = 20, .z = 20},
-     .line = 121, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 56, .access_count = 8, .rendering = 4, .pipeline = 15,
-     .first_binding = 45, .binding_count = 1, .first_params = 7, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 173, .file = "passes.rg"},
-    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 64, .access_count = 3, .rendering = 5, .pipeline = 16,
-     .first_binding = 46, .binding_count = 1, .first_params = 8, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 47, .file = "passes.rg"},
-    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 67, .access_count = 3, .pipeline = 17, .first_binding = 47,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 89, .y = 20, .z = 20}, .line = 114, .file = "passes.rg"},
-    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 70, .access_count = 5, .pipeline = 18, .first_binding = 50,
-     .binding_count = 6, .first_params = 9, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 7, .y = 8, .z = 20}, .line = 129,
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
+     .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 112, .y = 30, .z = 30}, .line = 155, .file = "passes.rg"},
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
+     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 207, .file = "passes.rg"},
+    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 148, .file = "passes.rg"},
+    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 134, .access_count = 5, .pipeline = 31, .first_binding = 116,
+     .binding_count = 6, .first_params = 27, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 163,
      .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 75, .access_count = 3, .pipeline = 19, .first_binding = 56,
-     .binding_count = 4, .first_params = 10, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 13, .y = 14, .z = 20}, .line = 139,
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 3, .pipeline = 32, .first_binding = 122,
+     .binding_count = 4, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 173,
      .file = "passes.rg"},
-    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 78, .access_count = 3, .pipeline = 20,
-     .first_binding = 60, .binding_count = 4, .first_params = 11, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 90, .y = 91, .z = 20},
-     .line = 192, .file = "passes.rg"},
-    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 81, .access_count = 12, .pipeline = 21,
-     .first_binding = 64, .binding_count = 13, .first_params = 12, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 92, .y = 93, .z = 20},
-     .line = 200, .file = "passes.rg"},
-    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 93, .access_count = 10, .rendering = 6, .pipeline = 22,
-     .first_binding = 77, .binding_count = 9, .first_params = 13, .params_count = 1, .push_bytes = 4, .push_stages = 17,
-     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 217, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 103, .access_count = 2, .rendering = 7, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 233, .file = "passes.rg"},
-    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 105, .access_count = 5, .pipeline = 23,
-     .first_binding = 86, .binding_count = 6, .first_params = 14, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 94, .y = 95, .z = 20},
-     .line = 279, .file = "passes.rg"},
-    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 110, .access_count = 2, .pipeline = 24, .first_binding = 92,
-     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 90, .y = 91, .z = 20}, .line = 289, .file = "passes.rg"},
-    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 112, .access_count = 2, .pipeline = 25,
-     .first_binding = 94, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 96, .y = 97, .z = 20}, .first_mip_limit = 13,
-     .mip_limit_count = 1, .line = 296, .file = "passes.rg"},
-    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 114, .access_count = 2, .pipeline = 26,
-     .first_binding = 96, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 98, .y = 99, .z = 20}, .first_mip_limit = 14,
-     .mip_limit_count = 2, .line = 296, .file = "passes.rg"},
-    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 116, .access_count = 2, .pipeline = 27,
-     .first_binding = 98, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 100, .y = 101, .z = 20}, .first_mip_limit = 16,
-     .mip_limit_count = 2, .line = 296, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 118, .access_count = 2, .pipeline = 28,
-     .first_binding = 100, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 103, .z = 20}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 296, .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 2, .pipeline = 29,
-     .first_binding = 102, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 20}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 296, .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 122, .access_count = 2, .pipeline = 30,
-     .first_binding = 104, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 103, .z = 20}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 304, .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 124, .access_count = 2, .pipeline = 31,
-     .first_binding = 106, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 100, .y = 101, .z = 20}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 304, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 126, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 265, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 127, .access_count = 2, .pipeline = 32,
-     .first_binding = 108, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 98, .y = 99, .z = 20}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 304, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 129, .access_count = 2, .pipeline = 33, .first_binding = 110,
-     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 20}, .line = 265, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 2, .pipeline = 34,
-     .first_binding = 112, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 96, .y = 97, .z = 20}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 304, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 133, .access_count = 13, .pipeline = 35,
-     .first_binding = 114, .binding_count = 14, .first_params = 15, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 94, .y = 95, .z = 20}, .line = 240, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 146, .access_count = 3, .pipeline = 36, .first_binding = 128,
-     .binding_count = 4, .first_params = 16, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 20, .y = 20, .z = 20}, .line = 271,
+    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 142, .access_count = 3, .pipeline = 33,
+     .first_binding = 126, .binding_count = 4, .first_params = 29, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .line = 226, .file = "passes.rg"},
+    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 145, .access_count = 16, .pipeline = 34,
+     .first_binding = 130, .binding_count = 18, .first_params = 30, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 116, .y = 117, .z = 30}, .line = 234, .file = "passes.rg"},
+    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 161, .access_count = 14, .rendering = 14, .pipeline = 35,
+     .first_binding = 148, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
+     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 256, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 175, .access_count = 2, .rendering = 15, .push_bytes = 80,
+     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 277, .file = "passes.rg"},
+    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 177, .access_count = 5, .pipeline = 36,
+     .first_binding = 162, .binding_count = 6, .first_params = 34, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 30}, .line = 326, .file = "passes.rg"},
+    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 182, .access_count = 2, .pipeline = 37,
+     .first_binding = 168, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .line = 336, .file = "passes.rg"},
+    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 184, .access_count = 2, .pipeline = 38,
+     .first_binding = 170, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 121, .z = 30}, .first_mip_limit = 13,
+     .mip_limit_count = 1, .line = 343, .file = "passes.rg"},
+    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 186, .access_count = 2, .pipeline = 39,
+     .first_binding = 172, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 122, .y = 123, .z = 30}, .first_mip_limit = 14,
+     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 188, .access_count = 15, .pipeline = 40,
+     .first_binding = 174, .binding_count = 17, .first_params = 35, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 30}, .line = 284, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 203, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 312, .file = "passes.rg"},
+    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 204, .access_count = 2, .pipeline = 41,
+     .first_binding = 191, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 30}, .first_mip_limit = 16,
+     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 206, .access_count = 2, .pipeline = 42, .first_binding = 193,
+     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 126, .y = 127, .z = 30}, .line = 312, .file = "passes.rg"},
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 43,
+     .first_binding = 195, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 30}, .first_mip_limit = 18,
+     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 3, .pipeline = 44, .first_binding = 197,
+     .binding_count = 4, .first_params = 37, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 318,
      .file = "passes.rg"},
-    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 149, .access_count = 2, .pipeline = 37,
-     .first_binding = 132, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 90, .y = 91, .z = 20}, .first_mip_limit = 30,
-     .mip_limit_count = 1, .line = 304, .file = "passes.rg"},
-    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 151, .access_count = 5, .rendering = 8, .pipeline = 38,
-     .first_binding = 134, .binding_count = 5, .first_params = 17, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 108}, .line = 311,
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 213, .access_count = 2, .pipeline = 45,
+     .first_binding = 201, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 30}, .first_mip_limit = 20,
+     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 215, .access_count = 2, .pipeline = 46,
+     .first_binding = 203, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 30}, .first_mip_limit = 22,
+     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 217, .access_count = 2, .pipeline = 47,
+     .first_binding = 205, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 30}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 219, .access_count = 2, .pipeline = 48,
+     .first_binding = 207, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 122, .y = 123, .z = 30}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 221, .access_count = 2, .pipeline = 49,
+     .first_binding = 209, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 121, .z = 30}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
+    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 2, .pipeline = 50,
+     .first_binding = 211, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .first_mip_limit = 30,
+     .mip_limit_count = 1, .line = 351, .file = "passes.rg"},
+    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 225, .access_count = 5, .rendering = 16, .pipeline = 51,
+     .first_binding = 213, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 132}, .line = 358,
      .file = "passes.rg"},
 };
 
@@ -660,15 +904,32 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::fragment_shader | stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
+     .new_layout = Layout::depth_attachment},  // sun_shadow_world -> sun_shadow_props
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 3}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
      .new_layout = Layout::depth_attachment},  // depth_world -> depth_props
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 2}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[2] -> lamp_shadow_world[3]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader,
@@ -677,18 +938,64 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> depth_range_first
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 2}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_first -> depth_range_down[1]
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[6] -> lamp_shadow_world[7]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
+    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.inject
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
+     .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.light
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth},
+     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
+     .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.light
+    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.inject -> froxel_fog.light
+    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+    {.image = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+    {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.light
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
+    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.integrate
+    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.integrate
+    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.light -> froxel_fog.integrate
+    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.light -> froxel_fog.integrate
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
@@ -713,10 +1020,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
@@ -740,21 +1043,20 @@ constexpr ImageBarrier kImageBarriers[] = {
      .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
      .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
      .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
-     .new_layout = Layout::depth_attachment},  // sun_shadow_world -> sun_shadow_props
     {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> ambient_occlusion
     {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> ambient_occlusion
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> deferred_light
+    // froxel_fog.integrate -> deferred_light
+    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
+     .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
+    // froxel_fog.integrate -> deferred_light
+    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
+     .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
     {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light
@@ -803,6 +1105,9 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[1] -> bloom_down[2]
+    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[2] -> bloom_down[3]
@@ -836,9 +1141,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_up[3] -> bloom_up[4]
-    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write,
      .old_layout = Layout::shader_read_only, .new_layout = Layout::general},  // bloom_up[4] -> bloom_up[5]
@@ -866,10 +1168,28 @@ constexpr BufferBarrier kBufferBarriers[] = {
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // mesh_cull.clear -> mesh_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
-    // frame start -> light_occlusion.clear
-    {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
+    // lamp_cull -> lamp_shadow_world[0]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 133}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
+    // lamp_shadow_world[2] -> lamp_shadow_world[3]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 133, .size = 134}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
+    // lamp_shadow_world[4] -> lamp_shadow_world[5]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 135, .size = 134}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
+    // lamp_shadow_world[6] -> lamp_shadow_world[7]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
+    {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.cull -> froxel_fog.inject
+    {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.cull -> froxel_fog.light
+    // frame start -> light_occlusion.clear
+    {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     // zbin_build.clear -> zbin_build
     {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
@@ -904,42 +1224,43 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {},  // before mesh_cull.clear  passes.rg:24
-    {.buffer_count = 2},  // before mesh_cull  passes.rg:24
-    {.image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before depth_world  passes.rg:60
-    {.first_image = 1, .image_count = 1},  // before depth_props  passes.rg:70
-    {.first_image = 2, .image_count = 2},  // before depth_range_first  passes.rg:82
-    {.first_image = 4, .image_count = 1},  // before depth_range_down[1]  passes.rg:89
-    {.first_image = 5, .image_count = 1},  // before depth_range_down[2]  passes.rg:89
-    {.first_image = 6, .image_count = 1},  // before depth_range_down[3]  passes.rg:89
-    {.first_image = 7, .image_count = 1},  // before depth_range_down[4]  passes.rg:89
-    {.first_image = 8, .image_count = 1},  // before depth_range_down[5]  passes.rg:89
-    {.first_image = 9, .image_count = 1},  // before depth_range_down[6]  passes.rg:89
-    {.first_image = 10, .image_count = 6, .first_buffer = 3, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:89
-    {.first_image = 16, .image_count = 7, .first_buffer = 4, .buffer_count = 4},  // before sun_shadow_world  passes.rg:37
-    {.first_image = 23, .image_count = 3, .first_buffer = 8, .buffer_count = 3},  // before sun_shadow_props  passes.rg:47
-    {.first_image = 26, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before deferred_light  passes.rg:200
-    {.first_image = 32, .image_count = 1, .first_buffer = 14, .buffer_count = 1},  // before transparent  passes.rg:217
-    {.first_image = 33, .image_count = 1},  // before hologram  passes.rg:233
-    {.first_image = 34, .image_count = 3},  // before resolve_temporal  passes.rg:279
-    {.first_image = 37, .image_count = 3},  // before bloom_first  passes.rg:289
-    {.first_image = 40, .image_count = 1},  // before bloom_down[1]  passes.rg:296
-    {.first_image = 41, .image_count = 1},  // before bloom_down[2]  passes.rg:296
-    {.first_image = 42, .image_count = 1},  // before bloom_down[3]  passes.rg:296
-    {.first_image = 43, .image_count = 1},  // before bloom_down[4]  passes.rg:296
-    {.first_image = 44, .image_count = 1},  // before bloom_down[5]  passes.rg:296
-    {.first_image = 45, .image_count = 2},  // before bloom_up[1]  passes.rg:304
-    {.first_image = 47, .image_count = 2},  // before bloom_up[2]  passes.rg:304
-    {.first_image = 49, .image_count = 2},  // before luminance.clear  passes.rg:265
-    {.first_image = 51, .image_count = 2, .first_buffer = 15, .buffer_count = 1},  // before luminance  passes.rg:265
-    {.first_image = 53, .image_count = 3, .first_buffer = 16, .buffer_count = 1},  // before debug_view  passes.rg:240
-    {.first_image = 56, .image_count = 3, .first_buffer = 17, .buffer_count = 1},  // before tonemap  passes.rg:311
-    {.first_image = 59, .image_count = 1, .first_buffer = 18, .buffer_count = 1},  // at the end of the frame
+    {},  // before mesh_cull.clear  passes.rg:25
+    {.buffer_count = 2},  // before mesh_cull  passes.rg:25
+    {.image_count = 2, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:38
+    {.first_image = 2, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:48
+    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:72
+    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:72
+    {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:72
+    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.inject  passes/fog/fog.rg:55
+    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.light  passes/fog/fog.rg:65
+    {.first_image = 22, .image_count = 5},  // before froxel_fog.integrate  passes/fog/fog.rg:81
+    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
+    {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
+    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:140
+    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:148
+    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:234
+    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:256
+    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:277
+    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:326
+    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:336
+    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:343
+    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:343
+    {.first_image = 59, .image_count = 2},  // before debug_view  passes.rg:284
+    {.first_image = 61, .image_count = 1, .first_buffer = 22, .buffer_count = 1},  // before luminance  passes.rg:312
+    {.first_image = 62, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before expose  passes.rg:318
+    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:351
+    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:351
+    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:351
+    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:351
+    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:351
+    {.first_image = 73, .image_count = 3, .first_buffer = 24, .buffer_count = 1},  // before tonemap  passes.rg:358
+    {.first_image = 76, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_storage_read,
      .queue = 0},
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader | stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_materials}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read, .queue = 0},
@@ -947,7 +1268,7 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read, .queue = 0},
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read, .queue = 0},
-    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
     {.ref = {.resource = resource::scene_surface_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
@@ -957,6 +1278,46 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 133, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136}},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
+     .queue = 0, .discard = true},
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
+     .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
+     .discard = true},
+    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
+     .discard = true},
+    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
+     .discard = true},
+    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
+     .discard = true},
+    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .queue = 0},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader, .queue = 0,
@@ -1014,6 +1375,7 @@ constexpr Boundary kEntry[] = {
 constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_storage_read,
      .queue = 0},
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader | stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_materials}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read, .queue = 0},
@@ -1021,7 +1383,7 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read, .queue = 0},
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read, .queue = 0},
-    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
     {.ref = {.resource = resource::scene_surface_maps}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
@@ -1032,6 +1394,46 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 133, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136}},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
+     .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .queue = 0},
+    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader, .layout = Layout::depth_read_only, .queue = 0,
      .discard = true},
@@ -1097,83 +1499,91 @@ constexpr Boundary kExit[] = {
 };
 
 constexpr Acquire kAcquires[] = {
-    {.resource = resource::world_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
-     .first_clock = 0},
-    {.resource = resource::sun_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
-     .first_clock = 2},
-    {.resource = resource::sun_shadow, .group = 12, .image_barrier = 16, .image_barriers = 1,
+    {.resource = resource::world_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::sun_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::sun_shadow, .group = 2, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 12, .first_clock = 24},
-    {.resource = resource::depth, .group = 2, .image_barrier = 0, .image_barriers = 1,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write},
+    {.resource = resource::lamp_draws, .group = 2, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::scattered, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::transmittance, .group = 9, .image_barrier = 23, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::froxel_fog_cluster_volumes, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::froxel_fog_cluster_lights, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::froxel_fog_density, .group = 7, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::froxel_fog_inscatter, .group = 8, .image_barrier = 17, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::froxel_fog_extinction, .group = 8, .image_barrier = 18, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::depth, .group = 2, .image_barrier = 1, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
-    {.resource = resource::depth_range, .group = 4, .image_barrier = 3, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 4, .first_clock = 6},
-    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 8},
-    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 10},
-    {.resource = resource::zbins, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 26},
-    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 12},
-    {.resource = resource::tile_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 28},
-    {.resource = resource::forward_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 30},
-    {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 32},
-    {.resource = resource::albedo, .group = 11, .image_barrier = 11, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 14},
-    {.resource = resource::normal, .group = 11, .image_barrier = 12, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 16},
-    {.resource = resource::material, .group = 11, .image_barrier = 13, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 18},
-    {.resource = resource::emissive, .group = 11, .image_barrier = 14, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 20},
-    {.resource = resource::velocity, .group = 11, .image_barrier = 15, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 22},
-    {.resource = resource::occlusion, .group = 13, .image_barrier = 25, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 34},
-    {.resource = resource::hdr, .group = 14, .image_barrier = 31, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 14, .first_clock = 36},
-    {.resource = resource::debug_image, .group = 28, .image_barrier = 53, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 28, .first_clock = 42},
-    {.resource = resource::histogram, .group = 26, .stages = stage::clear, .accesses = access::transfer_write, .point = 26, .first_clock = 40},
-    {.resource = resource::bloom, .group = 18, .image_barrier = 38, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 38},
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write},
+    {.resource = resource::depth_range, .group = 4, .image_barrier = 7, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write},
+    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write},
+    {.resource = resource::zbins, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write},
+    {.resource = resource::tile_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::forward_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write},
+    {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write},
+    {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write},
+    {.resource = resource::material, .group = 11, .image_barrier = 31, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write},
+    {.resource = resource::emissive, .group = 11, .image_barrier = 32, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write},
+    {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write},
+    {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
+    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write},
+    {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 12},
-    {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 13},
-    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 16},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 29},
-    {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 29},
-    {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 29},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 30},
-    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 29},
-    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 30},
-};
-
-constexpr Index kAliasClocks[] = {
-    1, 31, 1, 31, 2, 31, 4, 31, 11, 31, 11, 31, 11, 31, 11, 31,
-    11, 31, 11, 31, 11, 31, 11, 31, 12, 31, 13, 31, 13, 31, 13, 31,
-    13, 31, 13, 31, 14, 31, 18, 31, 26, 31, 28, 31,
+    {.resource = resource::world_draws, .stages = stage::draw_indirect},
+    {.resource = resource::sun_draws, .stages = stage::draw_indirect},
+    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader},
+    {.resource = resource::lamp_draws, .stages = stage::draw_indirect},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader},
+    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader},
+    {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader},
+    {.resource = resource::froxel_fog_density, .stages = stage::compute_shader},
+    {.resource = resource::froxel_fog_inscatter, .stages = stage::compute_shader},
+    {.resource = resource::froxel_fog_extinction, .stages = stage::compute_shader},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader},
+    {.resource = resource::depth_range, .stages = stage::compute_shader},
+    {.resource = resource::zbin_min, .stages = stage::compute_shader},
+    {.resource = resource::zbin_max, .stages = stage::compute_shader},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader},
+    {.resource = resource::lights_seen, .stages = stage::compute_shader},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader},
+    {.resource = resource::tile_records, .stages = stage::compute_shader},
+    {.resource = resource::albedo, .stages = stage::compute_shader},
+    {.resource = resource::normal, .stages = stage::compute_shader},
+    {.resource = resource::material, .stages = stage::compute_shader},
+    {.resource = resource::emissive, .stages = stage::compute_shader},
+    {.resource = resource::velocity, .stages = stage::compute_shader},
+    {.resource = resource::occlusion, .stages = stage::compute_shader},
+    {.resource = resource::hdr, .stages = stage::compute_shader},
+    {.resource = resource::debug_image, .stages = stage::fragment_shader},
+    {.resource = resource::histogram, .stages = stage::compute_shader},
+    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader},
 };
 
 constexpr AliasPair kAliasPairs[] = {
-    {.before = resource::sun_shadow, .after = resource::world_draws, .wraps = true},
     {.before = resource::zbins, .after = resource::world_draws, .wraps = true},
     {.before = resource::tile_lights, .after = resource::world_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::world_draws, .wraps = true},
@@ -1183,47 +1593,290 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::debug_image, .after = resource::world_draws, .wraps = true},
     {.before = resource::histogram, .after = resource::world_draws, .wraps = true},
     {.before = resource::bloom, .after = resource::world_draws, .wraps = true},
+    {.before = resource::scattered, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::transmittance, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::froxel_fog_density, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::froxel_fog_inscatter, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::froxel_fog_extinction, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::depth_range, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::zbin_min, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::sun_draws, .wraps = true},
     {.before = resource::zbins, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::sun_draws, .wraps = true},
     {.before = resource::tile_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::albedo, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::normal, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::material, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::emissive, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::velocity, .after = resource::sun_draws, .wraps = true},
     {.before = resource::occlusion, .after = resource::sun_draws, .wraps = true},
     {.before = resource::hdr, .after = resource::sun_draws, .wraps = true},
     {.before = resource::debug_image, .after = resource::sun_draws, .wraps = true},
     {.before = resource::histogram, .after = resource::sun_draws, .wraps = true},
     {.before = resource::bloom, .after = resource::sun_draws, .wraps = true},
-    {.before = resource::world_draws, .after = resource::sun_shadow},
     {.before = resource::debug_image, .after = resource::sun_shadow, .wraps = true},
     {.before = resource::histogram, .after = resource::sun_shadow, .wraps = true},
     {.before = resource::bloom, .after = resource::sun_shadow, .wraps = true},
+    {.before = resource::scattered, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::transmittance, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::froxel_fog_density, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::froxel_fog_inscatter, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::froxel_fog_extinction, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::zbin_min, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::zbins, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::tile_records, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::albedo, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::normal, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::material, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::emissive, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::velocity, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::occlusion, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::hdr, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::debug_image, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::histogram, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::bloom, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::scattered},
+    {.before = resource::lamp_draws, .after = resource::scattered},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::scattered},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::scattered},
+    {.before = resource::froxel_fog_density, .after = resource::scattered},
+    {.before = resource::sun_draws, .after = resource::transmittance},
+    {.before = resource::lamp_draws, .after = resource::transmittance},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::transmittance},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::transmittance},
+    {.before = resource::froxel_fog_density, .after = resource::transmittance},
+    {.before = resource::sun_draws, .after = resource::froxel_fog_cluster_volumes},
+    {.before = resource::scattered, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::transmittance, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::froxel_fog_inscatter, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::froxel_fog_extinction, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::zbin_min, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::zbins, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::tile_records, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::albedo, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::normal, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::material, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::emissive, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::velocity, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::occlusion, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::hdr, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::debug_image, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::histogram, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::bloom, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::froxel_fog_cluster_lights},
+    {.before = resource::scattered, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::transmittance, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::zbin_min, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::zbins, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::tile_records, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::albedo, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::normal, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::material, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::emissive, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::velocity, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::occlusion, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::hdr, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::debug_image, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::histogram, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::bloom, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::froxel_fog_density},
+    {.before = resource::lamp_draws, .after = resource::froxel_fog_density},
+    {.before = resource::scattered, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::transmittance, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::zbin_min, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::zbins, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::tile_records, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::albedo, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::normal, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::material, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::emissive, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::velocity, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::occlusion, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::hdr, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::debug_image, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::histogram, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::bloom, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::froxel_fog_inscatter},
+    {.before = resource::lamp_draws, .after = resource::froxel_fog_inscatter},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::froxel_fog_inscatter},
+    {.before = resource::zbin_min, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::zbins, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::tile_records, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::albedo, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::normal, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::material, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::emissive, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::velocity, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::occlusion, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::hdr, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::debug_image, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::histogram, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::bloom, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::froxel_fog_extinction},
+    {.before = resource::lamp_draws, .after = resource::froxel_fog_extinction},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::froxel_fog_extinction},
+    {.before = resource::zbin_min, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::zbin_max, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::zbins, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::lights_seen, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::tile_lights, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::forward_lights, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::tile_records, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::albedo, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::normal, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::material, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::emissive, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::velocity, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::occlusion, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::hdr, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::debug_image, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::histogram, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::bloom, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::depth_range},
     {.before = resource::hdr, .after = resource::depth_range, .wraps = true},
     {.before = resource::debug_image, .after = resource::depth_range, .wraps = true},
     {.before = resource::histogram, .after = resource::depth_range, .wraps = true},
     {.before = resource::bloom, .after = resource::depth_range, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::zbin_min},
+    {.before = resource::lamp_draws, .after = resource::zbin_min},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::zbin_min},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::zbin_min},
+    {.before = resource::froxel_fog_density, .after = resource::zbin_min},
+    {.before = resource::froxel_fog_inscatter, .after = resource::zbin_min},
+    {.before = resource::froxel_fog_extinction, .after = resource::zbin_min},
     {.before = resource::hdr, .after = resource::zbin_min, .wraps = true},
     {.before = resource::debug_image, .after = resource::zbin_min, .wraps = true},
     {.before = resource::histogram, .after = resource::zbin_min, .wraps = true},
     {.before = resource::bloom, .after = resource::zbin_min, .wraps = true},
+    {.before = resource::sun_draws, .after = resource::zbin_max},
+    {.before = resource::lamp_draws, .after = resource::zbin_max},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::zbin_max},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::zbin_max},
+    {.before = resource::froxel_fog_density, .after = resource::zbin_max},
+    {.before = resource::froxel_fog_inscatter, .after = resource::zbin_max},
+    {.before = resource::froxel_fog_extinction, .after = resource::zbin_max},
     {.before = resource::hdr, .after = resource::zbin_max, .wraps = true},
     {.before = resource::debug_image, .after = resource::zbin_max, .wraps = true},
     {.before = resource::histogram, .after = resource::zbin_max, .wraps = true},
     {.before = resource::bloom, .after = resource::zbin_max, .wraps = true},
     {.before = resource::world_draws, .after = resource::zbins},
     {.before = resource::sun_draws, .after = resource::zbins},
+    {.before = resource::lamp_draws, .after = resource::zbins},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::zbins},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::zbins},
+    {.before = resource::froxel_fog_density, .after = resource::zbins},
+    {.before = resource::froxel_fog_inscatter, .after = resource::zbins},
+    {.before = resource::froxel_fog_extinction, .after = resource::zbins},
+    {.before = resource::sun_draws, .after = resource::lights_seen},
+    {.before = resource::lamp_draws, .after = resource::lights_seen},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::lights_seen},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::lights_seen},
+    {.before = resource::froxel_fog_density, .after = resource::lights_seen},
+    {.before = resource::froxel_fog_inscatter, .after = resource::lights_seen},
+    {.before = resource::froxel_fog_extinction, .after = resource::lights_seen},
     {.before = resource::hdr, .after = resource::lights_seen, .wraps = true},
     {.before = resource::debug_image, .after = resource::lights_seen, .wraps = true},
     {.before = resource::histogram, .after = resource::lights_seen, .wraps = true},
     {.before = resource::bloom, .after = resource::lights_seen, .wraps = true},
     {.before = resource::world_draws, .after = resource::tile_lights},
     {.before = resource::sun_draws, .after = resource::tile_lights},
+    {.before = resource::lamp_draws, .after = resource::tile_lights},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::tile_lights},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::tile_lights},
+    {.before = resource::froxel_fog_density, .after = resource::tile_lights},
+    {.before = resource::froxel_fog_inscatter, .after = resource::tile_lights},
+    {.before = resource::froxel_fog_extinction, .after = resource::tile_lights},
     {.before = resource::world_draws, .after = resource::forward_lights},
     {.before = resource::sun_draws, .after = resource::forward_lights},
+    {.before = resource::lamp_draws, .after = resource::forward_lights},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::forward_lights},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::forward_lights},
+    {.before = resource::froxel_fog_density, .after = resource::forward_lights},
+    {.before = resource::froxel_fog_inscatter, .after = resource::forward_lights},
+    {.before = resource::froxel_fog_extinction, .after = resource::forward_lights},
     {.before = resource::world_draws, .after = resource::tile_records},
     {.before = resource::sun_draws, .after = resource::tile_records},
+    {.before = resource::lamp_draws, .after = resource::tile_records},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::tile_records},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::tile_records},
+    {.before = resource::froxel_fog_density, .after = resource::tile_records},
+    {.before = resource::froxel_fog_inscatter, .after = resource::tile_records},
+    {.before = resource::froxel_fog_extinction, .after = resource::tile_records},
+    {.before = resource::sun_draws, .after = resource::albedo},
+    {.before = resource::lamp_draws, .after = resource::albedo},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::albedo},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::albedo},
+    {.before = resource::froxel_fog_density, .after = resource::albedo},
+    {.before = resource::froxel_fog_inscatter, .after = resource::albedo},
+    {.before = resource::froxel_fog_extinction, .after = resource::albedo},
+    {.before = resource::sun_draws, .after = resource::normal},
+    {.before = resource::lamp_draws, .after = resource::normal},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::normal},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::normal},
+    {.before = resource::froxel_fog_density, .after = resource::normal},
+    {.before = resource::froxel_fog_inscatter, .after = resource::normal},
+    {.before = resource::froxel_fog_extinction, .after = resource::normal},
+    {.before = resource::sun_draws, .after = resource::material},
+    {.before = resource::lamp_draws, .after = resource::material},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::material},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::material},
+    {.before = resource::froxel_fog_density, .after = resource::material},
+    {.before = resource::froxel_fog_inscatter, .after = resource::material},
+    {.before = resource::froxel_fog_extinction, .after = resource::material},
+    {.before = resource::sun_draws, .after = resource::emissive},
+    {.before = resource::lamp_draws, .after = resource::emissive},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::emissive},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::emissive},
+    {.before = resource::froxel_fog_density, .after = resource::emissive},
+    {.before = resource::froxel_fog_inscatter, .after = resource::emissive},
+    {.before = resource::froxel_fog_extinction, .after = resource::emissive},
+    {.before = resource::sun_draws, .after = resource::velocity},
+    {.before = resource::lamp_draws, .after = resource::velocity},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::velocity},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::velocity},
+    {.before = resource::froxel_fog_density, .after = resource::velocity},
+    {.before = resource::froxel_fog_inscatter, .after = resource::velocity},
+    {.before = resource::froxel_fog_extinction, .after = resource::velocity},
     {.before = resource::world_draws, .after = resource::occlusion},
     {.before = resource::sun_draws, .after = resource::occlusion},
+    {.before = resource::lamp_draws, .after = resource::occlusion},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::occlusion},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::occlusion},
+    {.before = resource::froxel_fog_density, .after = resource::occlusion},
+    {.before = resource::froxel_fog_inscatter, .after = resource::occlusion},
+    {.before = resource::froxel_fog_extinction, .after = resource::occlusion},
     {.before = resource::world_draws, .after = resource::hdr},
     {.before = resource::sun_draws, .after = resource::hdr},
+    {.before = resource::lamp_draws, .after = resource::hdr},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::hdr},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::hdr},
+    {.before = resource::froxel_fog_density, .after = resource::hdr},
+    {.before = resource::froxel_fog_inscatter, .after = resource::hdr},
+    {.before = resource::froxel_fog_extinction, .after = resource::hdr},
     {.before = resource::depth_range, .after = resource::hdr},
     {.before = resource::zbin_min, .after = resource::hdr},
     {.before = resource::zbin_max, .after = resource::hdr},
@@ -1231,6 +1884,12 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::world_draws, .after = resource::debug_image},
     {.before = resource::sun_draws, .after = resource::debug_image},
     {.before = resource::sun_shadow, .after = resource::debug_image},
+    {.before = resource::lamp_draws, .after = resource::debug_image},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::debug_image},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::debug_image},
+    {.before = resource::froxel_fog_density, .after = resource::debug_image},
+    {.before = resource::froxel_fog_inscatter, .after = resource::debug_image},
+    {.before = resource::froxel_fog_extinction, .after = resource::debug_image},
     {.before = resource::depth_range, .after = resource::debug_image},
     {.before = resource::zbin_min, .after = resource::debug_image},
     {.before = resource::zbin_max, .after = resource::debug_image},
@@ -1238,6 +1897,12 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::world_draws, .after = resource::histogram},
     {.before = resource::sun_draws, .after = resource::histogram},
     {.before = resource::sun_shadow, .after = resource::histogram},
+    {.before = resource::lamp_draws, .after = resource::histogram},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::histogram},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::histogram},
+    {.before = resource::froxel_fog_density, .after = resource::histogram},
+    {.before = resource::froxel_fog_inscatter, .after = resource::histogram},
+    {.before = resource::froxel_fog_extinction, .after = resource::histogram},
     {.before = resource::depth_range, .after = resource::histogram},
     {.before = resource::zbin_min, .after = resource::histogram},
     {.before = resource::zbin_max, .after = resource::histogram},
@@ -1245,6 +1910,12 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::world_draws, .after = resource::bloom},
     {.before = resource::sun_draws, .after = resource::bloom},
     {.before = resource::sun_shadow, .after = resource::bloom},
+    {.before = resource::lamp_draws, .after = resource::bloom},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::bloom},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::bloom},
+    {.before = resource::froxel_fog_density, .after = resource::bloom},
+    {.before = resource::froxel_fog_inscatter, .after = resource::bloom},
+    {.before = resource::froxel_fog_extinction, .after = resource::bloom},
     {.before = resource::depth_range, .after = resource::bloom},
     {.before = resource::zbin_min, .after = resource::bloom},
     {.before = resource::zbin_max, .after = resource::bloom},
@@ -1261,20 +1932,35 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
     {.kind = StepKind::barriers, .index = 2},
+    {.kind = StepKind::pass, .index = pass::sun_shadow_world},
+    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::pass, .index = pass::depth_world},
     {.kind = StepKind::barriers, .index = 3},
+    {.kind = StepKind::pass, .index = pass::sun_shadow_props},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
     {.kind = StepKind::pass, .index = pass::depth_props},
     {.kind = StepKind::barriers, .index = 4},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
     {.kind = StepKind::pass, .index = pass::depth_range_first},
     {.kind = StepKind::barriers, .index = 5},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 6},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 7},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_inject},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
     {.kind = StepKind::barriers, .index = 8},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_light},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
     {.kind = StepKind::barriers, .index = 9},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_integrate},
     {.kind = StepKind::pass, .index = pass::depth_range_down_5},
     {.kind = StepKind::barriers, .index = 10},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
@@ -1284,12 +1970,10 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::light_occlusion_clear},
     {.kind = StepKind::pass, .index = pass::gbuffer_world},
     {.kind = StepKind::barriers, .index = 12},
-    {.kind = StepKind::pass, .index = pass::sun_shadow_world},
     {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::pass, .index = pass::light_occlusion},
     {.kind = StepKind::pass, .index = pass::gbuffer_props},
     {.kind = StepKind::barriers, .index = 13},
-    {.kind = StepKind::pass, .index = pass::sun_shadow_props},
     {.kind = StepKind::pass, .index = pass::zbin_pack},
     {.kind = StepKind::pass, .index = pass::light_cull},
     {.kind = StepKind::pass, .index = pass::tile_cull},
@@ -1309,24 +1993,24 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 20},
     {.kind = StepKind::pass, .index = pass::bloom_down_2},
     {.kind = StepKind::barriers, .index = 21},
+    {.kind = StepKind::pass, .index = pass::debug_view},
+    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_down_3},
     {.kind = StepKind::barriers, .index = 22},
+    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_4},
     {.kind = StepKind::barriers, .index = 23},
+    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_down_5},
     {.kind = StepKind::barriers, .index = 24},
     {.kind = StepKind::pass, .index = pass::bloom_up_1},
     {.kind = StepKind::barriers, .index = 25},
     {.kind = StepKind::pass, .index = pass::bloom_up_2},
     {.kind = StepKind::barriers, .index = 26},
-    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_up_3},
     {.kind = StepKind::barriers, .index = 27},
-    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_up_4},
     {.kind = StepKind::barriers, .index = 28},
-    {.kind = StepKind::pass, .index = pass::debug_view},
-    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_5},
     {.kind = StepKind::barriers, .index = 29},
     {.kind = StepKind::pass, .index = pass::tonemap},
@@ -1334,14 +2018,34 @@ constexpr Step kSteps[] = {
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 75},
+    {.step_count = 88},
 };
 
 constexpr Attachment kAttachments[] = {
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 1, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 3, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 4, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 5, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 6, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 7, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
@@ -1354,8 +2058,6 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
      .load = LoadOp::load, .store = StoreOp::none},
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
@@ -1368,8 +2070,6 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
      .load = LoadOp::load, .store = StoreOp::none},
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
@@ -1383,31 +2083,45 @@ constexpr Attachment kAttachments[] = {
 };
 
 constexpr Rendering kRenderings[] = {
-    {.depth = 0, .width = 1, .height = 2},
+    {.depth = 0, .width = 5, .height = 5},
     {.depth = 1, .width = 1, .height = 2},
-    {.first_color = 2, .color_count = 5, .depth = 7, .width = 1, .height = 2},
-    {.depth = 8, .width = 5, .height = 5},
-    {.first_color = 9, .color_count = 5, .depth = 14, .width = 1, .height = 2},
-    {.depth = 15, .width = 5, .height = 5},
-    {.first_color = 16, .color_count = 1, .depth = 17, .width = 1, .height = 2},
-    {.first_color = 18, .color_count = 1, .depth = 19, .width = 1, .height = 2},
-    {.first_color = 20, .color_count = 1, .width = 1, .height = 2},
+    {.depth = 2, .width = 5, .height = 5},
+    {.depth = 3, .width = 0, .height = 0},
+    {.depth = 4, .width = 0, .height = 0},
+    {.depth = 5, .width = 0, .height = 0},
+    {.depth = 6, .width = 1, .height = 2},
+    {.depth = 7, .width = 0, .height = 0},
+    {.depth = 8, .width = 0, .height = 0},
+    {.depth = 9, .width = 0, .height = 0},
+    {.depth = 10, .width = 0, .height = 0},
+    {.depth = 11, .width = 0, .height = 0},
+    {.first_color = 12, .color_count = 5, .depth = 17, .width = 1, .height = 2},
+    {.first_color = 18, .color_count = 5, .depth = 23, .width = 1, .height = 2},
+    {.first_color = 24, .color_count = 1, .depth = 25, .width = 1, .height = 2},
+    {.first_color = 26, .color_count = 1, .depth = 27, .width = 1, .height = 2},
+    {.first_color = 28, .color_count = 1, .width = 1, .height = 2},
 };
 
 constexpr ShaderModule kShaders[] = {
     {.name = "passes/geometry/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_mesh_cull_comp},
+    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
+    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
     {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
+    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
+    {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
     {.name = "passes/geometry/depth_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_props_vert},
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
+    {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
+    {.name = "passes/fog/fog_inject.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_inject_comp},
+    {.name = "passes/fog/fog_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_light_comp},
+    {.name = "passes/fog/fog_integrate.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_integrate_comp},
     {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
     {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
-    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
     {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
     {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "passes/geometry/gbuffer_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_props_vert},
     {.name = "passes/geometry/gbuffer_props.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_props_frag},
-    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
     {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
     {.name = "passes/culling/light_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_cull_comp},
     {.name = "passes/culling/tile_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_tile_cull_comp},
@@ -1418,18 +2132,19 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/post/resolve_temporal.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_resolve_temporal_comp},
     {.name = "passes/post/bloom_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_first_comp},
     {.name = "passes/post/bloom_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_down_comp},
-    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
-    {.name = "passes/post/luminance.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp},
     {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
+    {.name = "passes/post/luminance.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp},
     {.name = "passes/post/expose.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_expose_comp},
+    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = frame::spirv::rgc_fullscreen_vert},
     {.name = "passes/post/tonemap.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_post_tonemap_frag},
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 4, 4, 4, 4, 4, 4, 5, 6, 7, 8, 9,
-    10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 22, 22, 22,
-    22, 23, 23, 23, 24, 23, 25, 26, 23, 27, 28,
+    0, 1, 2, 3, 4, 5, 5, 5, 6, 5, 5, 7, 5, 5, 8, 5,
+    9, 8, 10, 8, 11, 8, 12, 8, 8, 8, 13, 14, 15, 16, 17, 18,
+    19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 28, 29, 28, 30, 28, 31,
+    28, 32, 32, 32, 32, 32, 33, 34,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -1477,53 +2192,74 @@ constexpr VertexAttribute kVertexAttributes[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "mesh_cull", .pass = pass::mesh_cull, .shader_count = 1},
-    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 1, .shader_count = 1,
-     .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
-    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 2, .shader_count = 1,
-     .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
-    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 3, .shader_count = 1},
-    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 4, .shader_count = 1},
-    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 5, .shader_count = 1},
-    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 6, .shader_count = 1},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 7, .shader_count = 1},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 8, .shader_count = 1},
-    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 9, .shader_count = 1},
-    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 10, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 11, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
-     .blend_count = 5},
-    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 13, .shader_count = 1,
+    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 1, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 14, .shader_count = 1},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 15, .shader_count = 1},
-    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 16, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
-     .first_blend = 5, .blend_count = 5, .first_vertex_binding = 1, .vertex_binding_count = 1, .first_vertex_attribute = 6,
+    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 2, .shader_count = 1},
+    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 3, .shader_count = 1,
+     .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
+    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 4, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
+    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 5, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 6, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 7, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 8, .shader_count = 1,
+     .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1,
+     .first_vertex_attribute = 6, .vertex_attribute_count = 6},
+    {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 9, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 10, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 11, .shader_count = 1},
+    {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 12, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 13, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 14, .shader_count = 1},
+    {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 15, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "froxel_fog.cull", .pass = pass::froxel_fog_cull, .first_shader = 16, .shader_count = 1},
+    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
+    {.name = "froxel_fog.inject", .pass = pass::froxel_fog_inject, .first_shader = 18, .shader_count = 1},
+    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
+    {.name = "froxel_fog.light", .pass = pass::froxel_fog_light, .first_shader = 20, .shader_count = 1},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 21, .shader_count = 1},
+    {.name = "froxel_fog.integrate", .pass = pass::froxel_fog_integrate, .first_shader = 22, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 23, .shader_count = 1},
+    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 24, .shader_count = 1},
+    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 25, .shader_count = 1},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+     .blend_count = 5},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 28, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 29, .shader_count = 1},
+    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 30, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+     .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
-    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 18, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
-     .vertex_attribute_count = 6},
-    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 19, .shader_count = 1},
-    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 20, .shader_count = 1},
-    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 21, .shader_count = 1},
-    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 22, .shader_count = 1},
-    {.name = "deferred_light", .pass = pass::deferred_light, .first_shader = 23, .shader_count = 1},
-    {.name = "transparent", .pass = pass::transparent, .first_shader = 24, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
+    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 32, .shader_count = 1},
+    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 33, .shader_count = 1},
+    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 34, .shader_count = 1},
+    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 35, .shader_count = 1},
+    {.name = "deferred_light", .pass = pass::deferred_light, .first_shader = 36, .shader_count = 1},
+    {.name = "transparent", .pass = pass::transparent, .first_shader = 37, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
      .blend_count = 1},
-    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 26, .shader_count = 1},
-    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 27, .shader_count = 1},
-    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 28, .shader_count = 1},
-    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 29, .shader_count = 1},
-    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 30, .shader_count = 1},
-    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 31, .shader_count = 1},
-    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 32, .shader_count = 1},
-    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 33, .shader_count = 1},
-    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 34, .shader_count = 1},
-    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 35, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 36, .shader_count = 1},
-    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 37, .shader_count = 1},
-    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 38, .shader_count = 1},
-    {.name = "expose", .pass = pass::expose, .first_shader = 39, .shader_count = 1},
-    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 40, .shader_count = 1},
-    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 41, .shader_count = 2, .first_blend = 11, .blend_count = 1},
+    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 39, .shader_count = 1},
+    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 40, .shader_count = 1},
+    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 41, .shader_count = 1},
+    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 42, .shader_count = 1},
+    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 43, .shader_count = 1},
+    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 44, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 45, .shader_count = 1},
+    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 46, .shader_count = 1},
+    {.name = "expose", .pass = pass::expose, .first_shader = 47, .shader_count = 1},
+    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 48, .shader_count = 1},
+    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 49, .shader_count = 1},
+    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 50, .shader_count = 1},
+    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 51, .shader_count = 1},
+    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 52, .shader_count = 1},
+    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 53, .shader_count = 1},
+    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 54, .shader_count = 2, .first_blend = 11, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
@@ -1532,31 +2268,119 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
+    {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
+    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[0]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[0]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[0]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[0]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[1]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[1]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[1]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[1]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[2]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[3]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[3]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[4]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[4]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[4]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // depth_range_first
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[5]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[5]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
      .layout = Layout::shader_read_only},  // depth_range_down[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.cull
+    // froxel_fog.cull
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},  // froxel_fog.cull
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.cull
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.inject
+    // froxel_fog.inject
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
+    {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.inject
+    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.inject
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.inject
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.inject
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.light
+    // froxel_fog.light
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 2, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.light
+    {.binding = 3, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.light
+    {.binding = 4, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // froxel_fog.light
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.light
+    {.binding = 6, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.light
+    {.binding = 7, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
+    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
+    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
+    {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.light
+    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.light
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color},
+     .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+    {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
+     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.integrate
+    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.integrate
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.integrate
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.integrate
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -1578,10 +2402,6 @@ constexpr Binding kBindings[] = {
     {.binding = 5, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_surface_maps},
      .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
     {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
@@ -1592,7 +2412,6 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_props
-    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // zbin_pack
@@ -1616,36 +2435,54 @@ constexpr Binding kBindings[] = {
      .layout = Layout::general},  // ambient_occlusion
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // ambient_occlusion
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light
-    {.binding = 4, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // deferred_light
-    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // deferred_light
-    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // deferred_light
-    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // deferred_light
-    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // deferred_light
-    {.binding = 9, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
      .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
-    {.binding = 10, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
      .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light
-    {.binding = 11, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
      .layout = Layout::general},  // deferred_light
-    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light
+    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light
     {.type = DescriptorType::storage_buffer, .stages = 17, .ref = {.resource = resource::scene_instances}},  // transparent
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // transparent
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // transparent
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::scene_materials}},  // transparent
     {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::scene_lights}},  // transparent
-    {.binding = 5, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::forward_lights}},  // transparent
-    {.binding = 6, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::zbins}},  // transparent
-    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 16, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+    {.binding = 5, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // transparent
+    {.binding = 6, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::forward_lights}},  // transparent
+    {.binding = 7, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::zbins}},  // transparent
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 16, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // transparent
-    {.binding = 8, .type = DescriptorType::uniform_buffer_dynamic, .stages = 17, .params = 0},  // transparent
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 16, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // transparent
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // transparent
+    {.binding = 11, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // transparent
+    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 17, .params = 0},  // transparent
+    {.binding = 13, .type = DescriptorType::uniform_buffer_dynamic, .stages = 16, .params = 1},  // transparent
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // resolve_temporal
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
@@ -1669,37 +2506,6 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // luminance
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // debug_view
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
@@ -1716,17 +2522,53 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // debug_view
     {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // debug_view
-    {.binding = 8, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // debug_view
-    {.binding = 9, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
-    {.binding = 10, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
-    {.binding = 11, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
-    {.binding = 12, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
+    {.binding = 8, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // debug_view
+    {.binding = 9, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // debug_view
+    {.binding = 10, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // debug_view
+    {.binding = 11, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
+    {.binding = 12, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
+    {.binding = 13, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
+    {.binding = 14, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
-    {.binding = 13, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
+    {.binding = 15, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
+    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // luminance
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // expose
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure, .age = 1}},  // expose
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure}},  // expose
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // expose
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -1748,11 +2590,18 @@ constexpr Sampler kSamplers[] = {
 
 constexpr Params kParams[] = {
     {.name = "camera", .bytes = 512},
+    {.name = "fog", .bytes = 112},
+    {.name = "lamps", .bytes = 384},
 };
 
 constexpr Index kPassParams[] = {
-    0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0,
-    0, 0,
+    0, 0, 0, 2, 0, 0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 0,
+    1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1,
+    0, 1, 0, 0, 1, 0, 0,
+};
+
+constexpr std::string_view kConditions[] = {
+    "lamps_moved",
 };
 
 constexpr Transfer kTransfers[] = {
@@ -1766,10 +2615,10 @@ constexpr Transfer kTransfers[] = {
 constexpr Plan kPlan =
     {.name = "frame", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues, .batches = kBatches, .steps = kSteps,
      .groups = kGroups, .image_barriers = kImageBarriers, .buffer_barriers = kBufferBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
-     .releases = kReleases, .alias_pairs = kAliasPairs, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses,
-     .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders,
-     .blends = kBlends, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers,
-     .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .estimated_heap_bytes = 18103552};
+     .releases = kReleases, .alias_pairs = kAliasPairs, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
+     .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
+     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
+     .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .conditions = kConditions, .estimated_heap_bytes = 19028480};
 
 }  // namespace
 
@@ -1778,8 +2627,8 @@ namespace frame {
 const rg::Plan& plan() { return kPlan; }
 
 namespace {
-std::array<int64_t, 3> extent_values([[maybe_unused]] const Extents& extents) {
-  return {extents.view.width, extents.view.height, 1};
+std::array<int64_t, 6> extent_values([[maybe_unused]] const Extents& extents) {
+  return {extents.froxels.width, extents.froxels.height, extents.froxels.depth, extents.view.width, extents.view.height, 1};
 }
 }  // namespace
 
@@ -1793,12 +2642,14 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
 
 rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
 
-rg::Status Frame::submit(const Imports& imports, const Params& params, const rg::RecordFunction* callbacks, void* recorder) {
+rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
+                         void* recorder) {
   rg::FrameInputs inputs;
   inputs.callbacks = callbacks;
   inputs.user = recorder;
   const rg::Import import_rows[] = {
       {.buffer = imports.scene_lights.value},
+      {.buffer = imports.scene_fog_volumes.value},
       {.buffer = imports.scene_instances.value},
       {.buffer = imports.scene_materials.value},
       {.buffer = imports.scene_vertices.value},
@@ -1812,8 +2663,11 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const rg:
   inputs.imports = import_rows;
   const std::span<const std::byte> params_rows[] = {
       rg::bytes_of(params.camera),
+      rg::bytes_of(params.fog),
+      rg::bytes_of(params.lamps),
   };
   inputs.params = params_rows;
+  if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;
   return instance_.execute(inputs);
 }
 

@@ -86,12 +86,12 @@ void PlanEmitter::barriers() {
 void PlanEmitter::boundaries() {
   const auto boundary = [&](const Boundary& b, size_t) {
     Row row;
-    row.nested("ref", ref(b.ref)).nested("range", range(b.range)).nested("bytes", bytes(b.bytes));
+    row.nested("ref", ref(b.ref)).nested("range", range(b.range));
     if (b.stages != 0) row.field("stages", stages_text(b.stages));
     if (b.accesses != 0) row.field("accesses", accesses_text(b.accesses));
     if (b.layout != Layout::undefined) row.field("layout", layout_text(b.layout));
     index(row, "queue", b.queue);
-    return row.flag("discard", b.discard);
+    return row.flag("discard", b.discard).nested("bytes", bytes(b.bytes));
   };
   table("Boundary", "kEntry", plan_.entry, boundary);
   table("Boundary", "kExit", plan_.exit, boundary);

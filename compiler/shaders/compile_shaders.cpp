@@ -48,10 +48,10 @@ size_t add_job(Work& work, Job job) {
   return work.jobs.size() - 1;
 }
 
-std::optional<Job> make_job(const PassContext& context, const dsl::Shader& shader, const dsl::SourceFiles& files, ShaderSources& sources,
-                            dsl::Diagnostics& diagnostics) {
+// The checker made the shader's path relative to the root folder.
+std::optional<Job> make_job(const PassContext& context, const dsl::Shader& shader, ShaderSources& sources, dsl::Diagnostics& diagnostics) {
   if (shader.path == kFullscreenPath) return Job{shader.stage, kFullscreenPath, kNoPrelude, &kFullscreenText};
-  const auto path = resolve_path(module_folder(files, shader.span), shader.path);
+  const auto path = resolve_path("", shader.path);
   if (!path) {
     diagnostics.report(dsl::DiagnosticKind::ShaderNotReadable, shader.span, {shader.path, "it lies outside the root file's folder"});
     return std::nullopt;
@@ -64,7 +64,7 @@ std::optional<Job> make_job(const PassContext& context, const dsl::Shader& shade
   return Job{shader.stage, *path, text(make_prelude(context.program, context.graph, context.pass, shader.stage)), source};
 }
 
-Work collect_work(const dsl::Program& program, const dsl::Graph& graph, const dsl::SourceFiles& files, ShaderSources& sources,
+Work collect_work(const dsl::Program& program, const dsl::Graph& graph, ShaderSources& sources,
                   dsl::Diagnostics& diagnostics) {
   Work work;
   for (const dsl::Pass& pass : graph.passes) {
@@ -72,7 +72,7 @@ Work collect_work(const dsl::Program& program, const dsl::Graph& graph, const ds
     std::vector<size_t> jobs;
     std::vector<dsl::Shader> shaders = shaders_in_stage_order(pass);
     for (const dsl::Shader& shader : shaders)
-      if (auto job = make_job({program, graph, pass}, shader, files, sources, diagnostics)) jobs.push_back(add_job(work, std::move(*job)));
+      if (auto job = make_job({program, graph, pass}, shader, sources, diagnostics)) jobs.push_back(add_job(work, std::move(*job)));
     if (jobs.size() != shaders.size()) jobs.clear();
     work.pass_jobs.push_back(std::move(jobs));
     work.pass_shaders.push_back(std::move(shaders));
@@ -204,7 +204,7 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
   const dsl::Graph& graph = program.graphs[graph_id];
   ShaderSources sources(read);
   ShaderPlaces places(files, sources);
-  const Work work = collect_work(program, graph, files, sources, diagnostics);
+  const Work work = collect_work(program, graph, sources, diagnostics);
   const std::vector<JobOutput> outputs = run_jobs(work.jobs, sources);
 
   BundleBuilder builder;

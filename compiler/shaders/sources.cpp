@@ -13,16 +13,6 @@ std::optional<std::string> resolve_path(const std::string& folder, const std::st
 
 std::string folder_of(const std::string& path) { return fs::path(path).parent_path().generic_string(); }
 
-std::string module_folder(const dsl::SourceFiles& files, dsl::Span span) {
-  if (!span.file.valid() || span.file.value == 0 || span.file.value >= files.size()) return "";
-  const fs::path root = folder_of(files.rows[0].path);
-  const fs::path folder = folder_of(files[span.file].path);
-  // Import paths may or may not carry the root file's own folder.
-  const fs::path below = folder.lexically_relative(root);
-  if (!root.empty() && !below.empty() && *below.begin() != "..") return below == "." ? "" : below.generic_string();
-  return folder.generic_string();
-}
-
 const std::string* ShaderSources::find(const std::string& path) {
   const std::lock_guard lock(mutex_);
   auto [at, is_new] = texts_.try_emplace(path);

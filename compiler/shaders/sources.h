@@ -14,8 +14,6 @@ namespace rg::compiler {
 // `path` as written in a file of `folder`, relative to the root folder and without `.` and `..`; nullopt if it leaves the root folder.
 std::optional<std::string> resolve_path(const std::string& folder, const std::string& path);
 std::string folder_of(const std::string& path);
-// Folder of the module that `span` lies in, relative to the root file's folder.
-std::string module_folder(const dsl::SourceFiles& files, dsl::Span span);
 
 // Reads each file once. Safe to call from several threads; the reader itself is called by one at a time.
 class ShaderSources {

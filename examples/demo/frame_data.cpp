@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "examples/demo/lamps.h"
+
 namespace rg::demo {
 namespace {
 
@@ -16,51 +18,11 @@ struct Times {
 
 constexpr float kTau = 2 * std::numbers::pi_v<float>;
 
-rg::vec2 to_rg(glm::vec2 v) { return {v.x, v.y}; }
-rg::vec3 to_rg(glm::vec3 v) { return {v.x, v.y, v.z}; }
-rg::vec4 to_rg(glm::vec4 v) { return {v.x, v.y, v.z, v.w}; }
-rg::mat4 to_rg(const glm::mat4& m) { return {{to_rg(m[0]), to_rg(m[1]), to_rg(m[2]), to_rg(m[3])}}; }
-rg::mat3x4 to_rows(const glm::mat4& m) {
-  const glm::mat4 t = glm::transpose(m);
-  return {{to_rg(t[0]), to_rg(t[1]), to_rg(t[2])}};
-}
-
 float swing(const Animation& a, float time) { return a.motion == Motion::swing ? a.amount * std::sin(kTau * (a.rate * time + a.phase)) : 0.0f; }
 
 glm::mat4 moved(const glm::mat4& transform, const Animation& a, float time) {
   if (a.motion == Motion::tumble) return glm::rotate(transform, kTau * a.amount * time, glm::vec3(1, 0, 0));
   return transform;
-}
-
-glm::vec3 drifted(glm::vec3 at, const Animation& a, float time) {
-  if (a.motion != Motion::drift) return at;
-  const float turn = kTau * (a.rate * time + a.phase);
-  return at + a.amount * glm::vec3(std::sin(turn), 0.5f * std::sin(1.7f * turn), std::cos(0.8f * turn));
-}
-
-frame::Light make_light(const Light& from, const glm::mat4& to_view, float time) {
-  frame::Light to;
-  const glm::vec3 at = drifted(from.position, from.animation, time);
-  const float depth = (to_view * glm::vec4(at, 1)).z, margin = 1e-3f + 1e-3f * from.range;
-  to.position = to_rg(at);
-  to.range = from.range;
-  to.color = to_rg(from.color);
-  to.kind = from.is_spot ? frame::LIGHT_SPOT : frame::LIGHT_OMNI;
-  to.direction = to_rg(from.direction);
-  to.cos_outer = std::cos(from.outer);
-  to.sin_outer = std::sin(from.outer);
-  to.cone_scale = 1 / std::max(std::cos(from.inner) - std::cos(from.outer), 1e-4f);
-  to.nearest = depth - from.range - margin;
-  to.farthest = depth + from.range + margin;
-  return to;
-}
-
-std::vector<frame::Light> make_lights(const Scene& scene, const glm::mat4& to_view, float time) {
-  std::vector<frame::Light> lights;
-  for (const Light& light : scene.lights) lights.push_back(make_light(light, to_view, time));
-  std::stable_sort(lights.begin(), lights.end(), [](const frame::Light& a, const frame::Light& b) { return a.nearest < b.nearest; });
-  if (lights.size() > static_cast<size_t>(frame::MAX_LIGHTS)) lights.resize(static_cast<size_t>(frame::MAX_LIGHTS));
-  return lights;
 }
 
 float stretch(const glm::mat4& m) { return std::sqrt(std::max({glm::dot(m[0], m[0]), glm::dot(m[1], m[1]), glm::dot(m[2], m[2])})); }
@@ -136,8 +98,32 @@ frame::View make_view(const Scene& scene, const NamedCamera& camera, const Frame
   return view;
 }
 
+// Places within a froxel, another one each frame: the sequence of golden ratios of three dimensions (Roberts 2018).
+glm::vec3 froxel_jitter(uint32_t number) { return glm::fract(static_cast<float>(number % 64 + 1) * glm::vec3(0.819173f, 0.671044f, 0.549700f)) - 0.5f; }
+
+// Near cascades are thin, far ones thick.
+glm::vec4 cascade_ends(float reach) { return reach * glm::vec4(0.10f, 0.27f, 0.55f, 1); }
+
+frame::Fog make_fog(const Scene& scene, const NamedCamera& camera, const FrameSettings& settings) {
+  frame::Fog fog;
+  fog.start = fog.previous_start = 0.2f;
+  fog.ends = fog.previous_ends = to_rg(cascade_ends(camera.fog_reach));
+  fog.density = scene.fog.density;
+  fog.ground = scene.fog.ground;
+  fog.thinning = scene.fog.thinning;
+  fog.phase = scene.fog.phase;
+  fog.albedo = to_rg(scene.fog.albedo);
+  fog.blend = settings.noise && settings.number > 0 ? 0.08f : 1.0f;
+  fog.terms = frame::FOG_SUN | frame::FOG_LIGHTS | frame::FOG_AMBIENT;
+  fog.volume_count = static_cast<uint32_t>(std::min<size_t>(scene.fog.boxes.size(), frame::MAX_FOG_VOLUMES));
+  fog.jitter = to_rg(settings.noise ? froxel_jitter(settings.number) : glm::vec3(0));
+  fog.count = to_rg(glm::vec3(froxels_of(settings.width, settings.height)));
+  return fog;
+}
+
 constexpr std::string_view kViews[] = {"final",    "lights",   "albedo",   "normal", "depth",     "roughness", "metallic", "diffuse",
-                                       "specular", "emissive", "overflow", "zbin",   "occlusion", "velocity",  "forward"};
+                                       "specular", "emissive", "overflow", "zbin",   "occlusion", "velocity",  "forward",
+                                       "fog",      "through",  "features"};
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace
@@ -148,6 +134,8 @@ FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameS
   FrameData data;
   data.view = make_view(scene, camera, settings, time);
   data.lights = make_lights(scene, world_to_view(camera), time);
+  data.lamps = make_lamp_views(scene);
+  data.fog = make_fog(scene, camera, settings);
   data.view.light_count = static_cast<uint32_t>(data.lights.size());
   for (const Instance& instance : scene.instances) data.instances.push_back(make_instance(scene, instance, times));
   data.view.instance_count = static_cast<uint32_t>(data.instances.size());
@@ -159,6 +147,26 @@ FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameS
   data.hologram.model_to_clip = to_rg(view_to_clip(projection) * world_to_view(camera) * at);
   data.hologram.color = {0.10f, 0.85f, 0.75f, 1};
   return data;
+}
+
+glm::uvec3 froxels_of(uint32_t width, uint32_t height) {
+  const auto cells = [](uint32_t pixels, uint32_t most) { return std::clamp((pixels + 9) / 10, 8u, most); };
+  return {cells(width, 160), cells(height, 96), 64};
+}
+
+std::vector<frame::FogVolume> make_fog_volumes(const Scene& scene) {
+  std::vector<frame::FogVolume> volumes;
+  for (const FogBox& from : scene.fog.boxes) {
+    frame::FogVolume to;
+    to.to_box = to_rows(glm::inverse(from.transform));
+    to.density = from.density;
+    to.edge = from.edge;
+    to.layer = from.layer;
+    to.repeats = from.repeats;
+    to.scroll = to_rg(from.scroll);
+    volumes.push_back(to);
+  }
+  return volumes;
 }
 
 std::vector<frame::Material> make_materials(const Scene& scene) {

@@ -16,7 +16,7 @@ struct FrameSettings {
   uint32_t debug_view = frame::DEBUG_FINAL;
   uint32_t light_path = frame::LIGHT_PATH_RECORDS;
   bool jitter = true;   // moves the camera within the pixel
-  bool noise = true;    // other variations of each frame
+  bool noise = true;    // other variations of each frame; without, fog has no history
   bool animate = true;  // else the scene stands still at time 0
 };
 
@@ -26,6 +26,8 @@ struct PropPlacement {
 };
 struct FrameData {
   frame::View view;
+  frame::Fog fog;
+  frame::LampViews lamps;                  // of the shadow maps
   std::vector<frame::Light> lights;        // sorted by nearest
   std::vector<frame::Instance> instances;  // in the scene's order
   std::vector<PropPlacement> props;
@@ -33,8 +35,12 @@ struct FrameData {
   frame::HologramDraw hologram;
 };
 
+// Froxels of a picture of that size.
+glm::uvec3 froxels_of(uint32_t width, uint32_t height);
+
 FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameSettings& settings);
 std::vector<frame::Material> make_materials(const Scene& scene);
+std::vector<frame::FogVolume> make_fog_volumes(const Scene& scene);
 
 // Metres that the z-bins cover; what lies farther falls into the last one.
 constexpr float kZbinRange = 96;

@@ -180,7 +180,7 @@ void add_light(const tinygltf::Light& from, const glm::mat4& transform, Scene& s
   light.position = transform[3];
   light.color = color * static_cast<float>(from.intensity);
   light.range = from.range > 0 ? static_cast<float>(from.range) : std::sqrt(std::max({light.color.r, light.color.g, light.color.b}) / 0.01f);
-  light.is_spot = from.type == "spot";
+  if (from.type == "spot") light.features = lamp::round;
   light.direction = forward;
   light.outer = std::clamp(static_cast<float>(from.spot.outerConeAngle), 0.02f, 1.5f);
   light.inner = std::clamp(static_cast<float>(from.spot.innerConeAngle), 0.0f, light.outer - 0.01f);

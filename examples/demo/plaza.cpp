@@ -98,6 +98,21 @@ void set_cameras(Scene& scene) {
   scene.sun.radius = 26;
 }
 
+// Haze under everything, mist that lies knee-high in the court, dust in the hall.
+void let_in_fog(Scene& scene) {
+  scene.fog.density = 0.012f;
+  scene.fog.ground = 4;
+  scene.fog.thinning = 0.25f;
+  scene.fog.phase = 0.55f;
+  const auto box = [&](glm::vec3 center, glm::vec3 half, float density, glm::vec2 scroll, float repeats) {
+    const glm::mat4 transform = glm::scale(glm::translate(glm::mat4(1), center), half);
+    scene.fog.boxes.push_back({transform, density, 0.6f, layer::mist, repeats, scroll});
+  };
+  box({0, 0.35f, 0}, {plan::court_x + 2, 0.75f, plan::court_z + 2}, 0.10f, {0.012f, 0.005f}, 3);
+  box({0, 1.6f, 1}, {3.4f, 1.8f, 3.4f}, 0.16f, {-0.02f, 0.03f}, 1);
+  box({0, 3.0f, -18}, {plan::hall_x, 2.6f, 4.2f}, 0.03f, {0.004f, 0.003f}, 1.5f);
+}
+
 }  // namespace
 
 void make_materials(Workshop& shop) {
@@ -120,6 +135,7 @@ Scene make_plaza() {
   hang_lights(shop);
   bake_sky(shop.scene, shop.solids);
   set_cameras(shop.scene);
+  let_in_fog(shop.scene);
   shop.scene.has_hologram = true;
   shop.scene.hologram_center = {0, 4.1f, 1};
   return std::move(shop.scene);

@@ -23,7 +23,7 @@ void spot(Workshop& shop, vec3 at, vec3 direction, vec3 color, float range, floa
   light.direction = glm::normalize(direction);
   light.color = color;
   light.range = range;
-  light.is_spot = true;
+  light.features = lamp::round;
   light.inner = inner;
   light.outer = outer;
   shop.scene.lights.push_back(light);

@@ -16,6 +16,24 @@ struct Slot {
   GpuBuffer lights, instances;
 };
 
+// What the lamps' shadow maps were last drawn from.
+struct ShadowState {
+  frame::LampViews lamps;
+  std::vector<frame::Instance> instances;
+  bool is_drawn = false;
+
+  // True if they have to be drawn anew.
+  bool update(const FrameData& data) {
+    const auto same = [](const auto* a, const auto* b, size_t bytes) { return bytes == 0 || std::memcmp(a, b, bytes) == 0; };
+    const bool moved = !is_drawn || !same(&lamps, &data.lamps, sizeof lamps) || instances.size() != data.instances.size() ||
+                       !same(instances.data(), data.instances.data(), instances.size() * sizeof(frame::Instance));
+    lamps = data.lamps;
+    instances = data.instances;
+    is_drawn = true;
+    return moved;
+  }
+};
+
 struct Recorder {
   const Scene& scene;
   const GpuScene& gpu;
@@ -72,6 +90,7 @@ struct Renderer::State {
   std::optional<frame::Frame> graph;
   UniquePipeline hologram_pipeline;
   uint64_t frames = 0;
+  ShadowState shadows;
 };
 
 namespace {
@@ -101,6 +120,8 @@ Result<Target> make_target(Device& device, uint32_t width, uint32_t height) {
 frame::Extents extents_of(uint32_t width, uint32_t height) {
   frame::Extents extents;
   extents.view = {width, height};
+  const glm::uvec3 froxels = froxels_of(width, height);
+  extents.froxels = {froxels.x, froxels.y, froxels.z};
   return extents;
 }
 
@@ -180,6 +201,7 @@ Status Renderer::resize(uint32_t width, uint32_t height) {
   s.readback = std::move(target->readback);
   s.options.width = width;
   s.options.height = height;
+  s.shadows.is_drawn = false;
   return Done{};
 }
 
@@ -190,6 +212,7 @@ Status Renderer::render(const FrameData& data) {
   write(slot.instances, data.instances);
   const frame::Imports imports{
       .scene_lights = import(slot.lights),
+      .scene_fog_volumes = import(s.gpu.fog_volumes),
       .scene_instances = import(slot.instances),
       .scene_materials = import(s.gpu.materials),
       .scene_vertices = import(s.gpu.vertices),
@@ -202,8 +225,12 @@ Status Renderer::render(const FrameData& data) {
   };
   frame::Params params;
   params.camera = data.view;
+  params.fog = data.fog;
+  params.lamps = data.lamps;
+  frame::Conditions conditions;
+  conditions.lamps_moved = s.shadows.update(data);
   Recorder recorder{*s.scene, s.gpu, data, s.hologram_pipeline.get()};
-  return s.graph->execute(imports, params, recorder);
+  return s.graph->execute(imports, params, conditions, recorder);
 }
 
 Result<Picture> Renderer::picture() {

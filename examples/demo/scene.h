@@ -58,20 +58,46 @@ struct Prop {
   float sky = 1;  // share of the sky that is seen
   Animation animation;
 };
+namespace lamp {
+enum : uint32_t { round = 1, square = 2, shadow = 4, soft = 8, projected = 16, area = 32, tube = 64, dark = 128, clipped = 256 };
+}
 struct Light {
   glm::vec3 position{0};
   float range = 1;
-  glm::vec3 color{1};  // radiant intensity
-  bool is_spot = false;
+  glm::vec3 color{1};     // radiant intensity; of an area, radiance where its picture is white
+  uint32_t features = 0;  // lamp::
   glm::vec3 direction{0, -1, 0};
-  float inner = 0.4f, outer = 0.6f;  // half angles, radians, below 90 degrees
+  glm::vec3 side{1, 0, 0};           // roughly across the direction; tubes lie along it exactly
+  float inner = 0.4f, outer = 0.6f;  // half angles, radians, below 90 degrees; of a square spot, to the middles of its sides
+  glm::vec2 size{0};                 // half length and radius of a tube, half sides of an area, radius of a soft lamp, metres
+  uint32_t picture = 0;              // texture layer
+  glm::vec4 clip[2] = {{0, 0, 0, 1}, {0, 0, 0, 1}};
   Animation animation;
+};
+constexpr uint32_t kMaxLampShadows = 8;  // later lamps of a scene go without
+
+// A box with fog of its own, masked by a texture that is seen along its y axis.
+struct FogBox {
+  glm::mat4 transform{1};  // of the box -1 .. 1
+  float density = 0.1f;    // extinction in its middle, 1 / metre
+  float edge = 0.5f;       // share of the half side over which it fades
+  uint32_t layer = 0;
+  float repeats = 1;
+  glm::vec2 scroll{0};  // repeats a second
+};
+struct Fog {
+  float density = 0;                 // extinction at and below `ground`, 1 / metre
+  float ground = 0, thinning = 0.2f;  // metres; 1 / metre
+  float phase = 0;                   // mean cosine of sunlight's deflection
+  glm::vec3 albedo{0.95f};
+  std::vector<FogBox> boxes;  // at most 32
 };
 struct NamedCamera {
   std::string name;
   glm::vec3 eye{0, 2, 10}, target{0};
   float field_of_view = 1.0f;  // vertical, radians
   float exposure_bias = 0;     // stops
+  float fog_reach = 64;        // metres that the fog's volume covers
 };
 struct Sun {
   glm::vec3 direction{0, 1, 0};  // towards it
@@ -101,6 +127,7 @@ struct Scene {
   std::vector<Light> lights;         // at most 512
   std::vector<NamedCamera> cameras;  // the first is the default
   Sun sun;
+  Fog fog;
   bool has_hologram = false;
   glm::vec3 hologram_center{0};
 };

@@ -152,6 +152,33 @@ Texel verdigris(vec2 at) {
   const float patina = glm::smoothstep(0.35f, 0.62f, fractal(at, 6, 131));
   return {glm::mix(vec3(0.80f, 0.45f, 0.28f), vec3(0.20f, 0.46f, 0.38f), patina), 0.5f * patina, 0.45f + 0.5f * patina, 1.0f - 0.85f * patina};
 }
+Texel mist(vec2 at) {
+  const float thick = glm::smoothstep(0.30f, 0.62f, fractal(at, 3, 151, 5));
+  return {vec3(thick), 0, 1, 0};
+}
+// Eight-pointed stars and crosses, as carved screens have them.
+Texel lattice(vec2 at) {
+  const vec2 p = glm::abs(glm::fract(at * 4.0f) - 0.5f);
+  const float square = std::max(p.x, p.y), diamond = (p.x + p.y) * 0.70711f, star = std::min(square, diamond);
+  const float corner = glm::length(p - 0.5f);
+  const float open = std::max(glm::smoothstep(0.30f, 0.27f, star), glm::smoothstep(0.15f, 0.12f, corner));
+  return {vec3(open), 0, 1, 0};
+}
+// Petals about a middle, in leads.
+Texel roses(vec2 at) {
+  const vec2 p = (at - 0.5f) * 2.0f;
+  const float radius = glm::length(p), angle = std::atan2(p.y, p.x) * 0.1591549f + 0.5f;
+  const float petals = radius < 0.42f ? 6.0f : 12.0f, part = glm::fract(angle * petals), lead = std::min(part, 1 - part) / petals * 6.2832f * radius;
+  const float ring = std::min({std::abs(radius - 0.16f), std::abs(radius - 0.42f), std::abs(radius - 0.72f), std::abs(radius - 0.96f)});
+  const float glass = glm::smoothstep(0.008f, 0.022f, std::min(ring, radius < 0.16f ? 1.0f : lead)) * (radius < 0.96f ? 1.0f : 0.0f);
+  const int which = static_cast<int>(angle * petals) + static_cast<int>(radius * 5);
+  const vec3 hues[] = {{1.0f, 0.10f, 0.08f}, {0.08f, 0.25f, 1.0f}, {1.0f, 0.62f, 0.06f}, {0.06f, 0.75f, 0.35f}};
+  return {hues[which % 4] * glass, 0, 1, 0};
+}
+Texel embers(vec2 at) {
+  const float heat = fractal(at, 6, 171), veins = glm::smoothstep(0.42f, 0.62f, heat);
+  return {glm::mix(vec3(0.25f, 0.03f, 0.01f), vec3(1.0f, 0.55f, 0.16f), veins), 0, 1, 0};
+}
 Texel terracotta(vec2 at) {
   const float f = fractal(at, 10, 141);
   return {glm::mix(vec3(0.42f, 0.17f, 0.09f), vec3(0.62f, 0.30f, 0.18f), f), 0.4f * f, 0.8f, 0};
@@ -223,7 +250,11 @@ std::vector<TextureLayer> make_plaza_textures() {
                                           rug,
                                           leaves,
                                           verdigris,
-                                          terracotta};
+                                          terracotta,
+                                          mist,
+                                          lattice,
+                                          roses,
+                                          embers};
   std::vector<TextureLayer> layers;
   for (const Pattern pattern : patterns) layers.push_back(encode(evaluate(pattern)));
   return layers;

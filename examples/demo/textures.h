@@ -24,6 +24,10 @@ enum : uint32_t {
   leaves,
   verdigris,
   terracotta,
+  mist,     // where fog is thick
+  lattice,  // what a screen in front of a lamp lets through
+  roses,    // a window of coloured glass
+  embers,   // what glows in a screen
   count
 };
 }

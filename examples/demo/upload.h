@@ -45,7 +45,7 @@ Status submit_once(Device& device, const std::function<void(VkCommandBuffer)>& r
 
 // What of a scene does not change from frame to frame, in the states that passes/scene/scene.rg declares.
 struct GpuScene {
-  GpuBuffer vertices, indices, materials, props, prop_indices;
+  GpuBuffer vertices, indices, materials, props, prop_indices, fog_volumes;
   GpuImage albedo_maps, surface_maps;
 };
 Result<GpuScene> upload(Device& device, const Scene& scene);

@@ -39,7 +39,7 @@ const float CULL_MARGIN = 1.0005;  // rounding; metres for metres
 bool light_reaches(TileVolume t, Light light) {
   vec3 c = (camera.world_to_view * vec4(light.position, 1.0)).xyz;
   if (!sphere_reaches(t, c, light.range * CULL_MARGIN + 1e-3)) return false;
-  if (light.kind != LIGHT_SPOT) return true;
+  if ((light.features & (LAMP_ROUND | LAMP_SQUARE)) == 0u) return true;
   vec3 axis = (camera.world_to_view * vec4(light.direction, 0.0)).xyz;
   return cone_reaches(c, axis, light.range, light.cos_outer, light.sin_outer, t.center, t.radius * CULL_MARGIN + 1e-3);
 }

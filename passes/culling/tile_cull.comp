@@ -5,6 +5,7 @@
 
 shared uint least_depth, greatest_depth;
 shared uint words[LIGHT_WORDS];
+shared uint features;
 
 void gather_depth() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -29,7 +30,13 @@ uint rank(uint word) {
 
 void write_word(uint tile, uint word) {
   uint at = rank(word);
-  for (uint m = words[word]; m != 0u && at < MAX_TILE_LIGHTS; m &= m - 1u) tile_records[tile].light[at++] = word * 32u + uint(findLSB(m));
+  uint found = 0u;
+  for (uint m = words[word]; m != 0u && at < MAX_TILE_LIGHTS; m &= m - 1u) {
+    uint index = word * 32u + uint(findLSB(m));
+    tile_records[tile].light[at++] = index;
+    found |= lights[index].features;
+  }
+  atomicOr(features, found);
 }
 
 void main() {
@@ -37,6 +44,7 @@ void main() {
   if (lane == 0u) {
     least_depth = 0xFFFFFFFFu;
     greatest_depth = 0u;
+    features = 0u;
   }
   if (lane < LIGHT_WORDS) words[lane] = 0u;
   barrier();
@@ -50,7 +58,10 @@ void main() {
   if (lane < LIGHT_WORDS) write_word(tile, lane);
   uint count = rank(LIGHT_WORDS);
   if (lane >= min(count, MAX_TILE_LIGHTS) && lane < MAX_TILE_LIGHTS) tile_records[tile].light[lane] = 0u;
+  barrier();
   if (lane == 0u) {
+    tile_records[tile].features = features;
+    tile_records[tile].spare = 0u;
     tile_records[tile].count = min(count, uint(MAX_TILE_LIGHTS));
     tile_records[tile].overflow = count - min(count, uint(MAX_TILE_LIGHTS));
   }

@@ -2,6 +2,8 @@
 #include "passes/view/octahedral.glsl"
 #include "passes/view/view.glsl"
 #include "passes/culling/zbin.glsl"
+#include "passes/fog/froxel.glsl"
+#include "passes/fog/apply.glsl"
 
 // Black, blue, green, yellow, red, white.
 vec3 heat(float x) {
@@ -17,9 +19,13 @@ uint count_lights(uvec2 pixel, bool forward) {
   return count;
 }
 
-vec3 record_view(uvec2 pixel) {
+uint record_of(uvec2 pixel) {
   uint tiles = (uint(camera.size.x) + SHADE_TILE - 1u) / SHADE_TILE;
-  uint tile = pixel.y / SHADE_TILE * tiles + pixel.x / SHADE_TILE;
+  return pixel.y / SHADE_TILE * tiles + pixel.x / SHADE_TILE;
+}
+
+vec3 record_view(uvec2 pixel) {
+  uint tile = record_of(pixel);
   vec3 fill = vec3(0.0, float(tile_records[tile].count) / float(MAX_TILE_LIGHTS), 0.15);
   return tile_records[tile].overflow > 0u ? vec3(1.0, 0.1, 0.0) : fill;
 }
@@ -48,6 +54,9 @@ vec3 channel(ivec2 pixel) {
     case DEBUG_ZBIN: return zbin_view(d);
     case DEBUG_OCCLUSION: return textureLod(occlusion, (vec2(pixel) + 0.5) * camera.inverse_size, 0.0).rrr * texelFetch(albedo, pixel, 0).a;
     case DEBUG_VELOCITY: return vec3(texelFetch(velocity, pixel, 0).rg * 20.0 + 0.5, 0.5);
+    case DEBUG_FOG: return lit_view(fog_light((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
+    case DEBUG_THROUGH: return vec3(fog_transmittance((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
+    case DEBUG_FEATURES: return heat(float(bitCount(tile_records[record_of(uvec2(pixel))].features)) / float(LAMP_FEATURES));
     default: return vec3(0.0);
   }
 }

@@ -13,6 +13,8 @@ const COUNT_TRIANGLES = 3
 
 const SUN_SHADOW_SIZE = 1536
 
+condition lamps_moved
+
 state world_depth { cull back  depth test greater_equal  depth write on }
 state world_equal { cull back  depth test greater_equal  depth write off }
 state caster      { cull none  depth test greater_equal  depth write on }

@@ -2,42 +2,49 @@
 #include "passes/view/octahedral.glsl"
 #include "passes/view/view.glsl"
 #include "passes/culling/zbin.glsl"
+#include "passes/fog/froxel.glsl"
+#include "passes/fog/apply.glsl"
 #include "brdf.glsl"
 #include "light.glsl"
-#include "masked.glsl"
 #include "shadow.glsl"
 #include "sky.glsl"
 
-void shade_record(inout Light2 sum, Surface s, uvec2 pixel) {
-  uint tiles = (uint(camera.size.x) + SHADE_TILE - 1u) / SHADE_TILE;
-  uint tile = pixel.y / SHADE_TILE * tiles + pixel.x / SHADE_TILE;
-  uint count = tile_records[tile].count;
-  for (uint i = 0u; i < count; ++i) add_lamp(sum, s, lights[tile_records[tile].light[i]]);
+uint lamp_word(uint index) { return tile_lights[index]; }
+#include "masked.glsl"
+
+// Lamps of the pixel in ascending order, by whichever path.
+struct LampSource { uint path, tile, at; LampWalk walk; };
+
+LampSource lamp_source(uvec2 pixel, float depth) {
+  LampSource source;
+  source.path = camera.light_path;
+  source.at = 0u;
+  source.tile = pixel.y / SHADE_TILE * ((uint(camera.size.x) + SHADE_TILE - 1u) / SHADE_TILE) + pixel.x / SHADE_TILE;
+  uint bits = pixel.y / TILE * ((uint(camera.size.x) + TILE - 1u) / TILE) + pixel.x / TILE;
+  uint bin = source.path == LIGHT_PATH_FLAT ? (MAX_LIGHTS - 1u) << 16 : zbins[zbin_of(depth)];
+  source.walk = start_walk(bits * LIGHT_WORDS, bin & 0xFFFFu, bin >> 16, source.path == LIGHT_PATH_SLIDE);
+  return source;
 }
 
-#define SHADE(index) add_lamp(sum, s, lights[index])
-void shade_masked(inout Light2 sum, Surface s, uvec2 pixel, float depth) {
-  uint tile = pixel.y / TILE * ((uint(camera.size.x) + TILE - 1u) / TILE) + pixel.x / TILE;
-  uint bin = zbins[zbin_of(depth)], lo = bin & 0xFFFFu, hi = bin >> 16;
-  if (camera.light_path == LIGHT_PATH_FLAT) {
-    lo = 0u;
-    hi = MAX_LIGHTS - 1u;
-  }
-  if (camera.light_path == LIGHT_PATH_SLIDE) {
-    FOR_EACH_LIGHT(tile_lights, tile, lo, hi, zbin_mask_slide, SHADE);
-  } else {
-    FOR_EACH_LIGHT(tile_lights, tile, lo, hi, zbin_mask, SHADE);
-  }
+uint next_lamp(inout LampSource source) {
+  if (source.path == LIGHT_PATH_RECORDS)
+    return source.at < tile_records[source.tile].count ? tile_records[source.tile].light[source.at++] : NO_LAMP;
+  if (source.path == LIGHT_PATH_ALL) return source.at < camera.light_count ? source.at++ : NO_LAMP;
+  return next_of_walk(source.walk);
+}
+uint next_special(inout LampSource source) {
+  uint index = next_lamp(source);
+  while (index != NO_LAMP && is_plain(index)) index = next_lamp(source);
+  return index;
 }
 
+// First the plain lamps, then the others: code for features that no lamp of a loop has costs nothing.
 void shade_lamps(inout Light2 sum, Surface s, uvec2 pixel, float depth) {
-  if (camera.light_path == LIGHT_PATH_RECORDS) {
-    shade_record(sum, s, pixel);
-  } else if (camera.light_path == LIGHT_PATH_ALL) {
-    for (uint i = 0u; i < camera.light_count; ++i) add_lamp(sum, s, lights[i]);
-  } else {
-    shade_masked(sum, s, pixel, depth);
-  }
+  LampSource start = lamp_source(pixel, depth), source = start;
+  for (uint i = next_lamp(source); i != NO_LAMP; i = next_lamp(source))
+    if (is_plain(i)) add_lamp(sum, s, lights[i], PLAIN_FEATURES);
+  source = start;
+  for (uint i = next_special(source); i != NO_LAMP; i = next_special(source)) add_lamp(sum, s, lights[i], ALL_FEATURES);
 }
 
 float smooth_occlusion(vec2 uv) {
@@ -60,7 +67,8 @@ void main() {
   float d = texelFetch(depth, pixel, 0).r;
   if (d <= 0.0) {
     bool shown = camera.debug_view == DEBUG_FINAL;
-    imageStore(hdr, pixel, vec4(shown ? sky_radiance(normalize(world_ray(at)), true) : vec3(0.0), 1.0));
+    vec3 sky = through_fog(sky_radiance(normalize(world_ray(at)), true), at * camera.inverse_size, FAR);
+    imageStore(hdr, pixel, vec4(shown ? sky : vec3(0.0), 1.0));
     return;
   }
   vec4 base = texelFetch(albedo, pixel, 0), m = texelFetch(material, pixel, 0);
@@ -72,7 +80,8 @@ void main() {
   add_light(sum, s, camera.sun_direction, camera.sun_color * sun_visibility(position, n));
   add_sky(sum, s, m.r, base.a * smooth_occlusion(at * camera.inverse_size));
 
-  vec3 color = sum.diffuse + sum.specular + texelFetch(emissive, pixel, 0).rgb;
+  vec3 color = max(sum.diffuse + sum.specular, 0.0) + texelFetch(emissive, pixel, 0).rgb;  // dark lamps take no more than there is
+  color = through_fog(color, at * camera.inverse_size, camera.near / d);
   if (camera.debug_view == DEBUG_DIFFUSE) color = sum.diffuse;
   if (camera.debug_view == DEBUG_SPECULAR) color = sum.specular;
   imageStore(hdr, pixel, vec4(color, 1.0));

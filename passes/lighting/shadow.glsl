@@ -14,9 +14,14 @@ float compare_four(vec2 texel, float depth) {
 
 const float SHADOW_BIAS = 0.0004;
 
-float sun_visibility(vec3 position, vec3 normal) {
-  float slant = 1.0 - clamp(dot(normal, camera.sun_direction), 0.0, 1.0);
-  vec3 at = (camera.world_to_sun * vec4(position + normal * camera.sun_texel * (0.6 + 1.8 * slant), 1.0)).xyz;
+float sun_visibility_of(vec3 position) {
+  vec3 at = (camera.world_to_sun * vec4(position, 1.0)).xyz;
   if (any(greaterThan(abs(at.xy), vec2(1.0)))) return 1.0;
   return compare_four((at.xy * 0.5 + 0.5) * vec2(textureSize(sun_shadow, 0)), at.z + SHADOW_BIAS);
+}
+
+// Of a surface: the point moves off it, so that it does not shade itself.
+float sun_visibility(vec3 position, vec3 normal) {
+  float slant = 1.0 - clamp(dot(normal, camera.sun_direction), 0.0, 1.0);
+  return sun_visibility_of(position + normal * camera.sun_texel * (0.6 + 1.8 * slant));
 }

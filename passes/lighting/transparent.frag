@@ -1,8 +1,9 @@
 // Forward shading of glass and water: the lamps of the tile's bit array, within the pixel's z-bin.
 #include "passes/culling/zbin.glsl"
+#include "passes/fog/froxel.glsl"
+#include "passes/fog/apply.glsl"
 #include "brdf.glsl"
 #include "light.glsl"
-#include "masked.glsl"
 #include "shadow.glsl"
 #include "sky.glsl"
 
@@ -20,20 +21,18 @@ vec3 ripple(vec3 n, float strength) {
   return normalize(n + strength * vec3(slope.x, 0.0, slope.y));
 }
 
-#define SHADE(index) add_lamp(sum, s, lights[index])
+uint lamp_word(uint index) { return forward_lights[index]; }
+#include "masked.glsl"
+
 void shade_lamps(inout Light2 sum, Surface s) {
   uvec2 pixel = uvec2(gl_FragCoord.xy);
   uint tile = pixel.y / TILE * ((uint(camera.size.x) + TILE - 1u) / TILE) + pixel.x / TILE;
-  uint bin = zbins[zbin_of(1.0 / gl_FragCoord.w)], lo = bin & 0xFFFFu, hi = bin >> 16;
-  if (camera.light_path == LIGHT_PATH_FLAT) {
-    lo = 0u;
-    hi = MAX_LIGHTS - 1u;
-  }
-  if (camera.light_path == LIGHT_PATH_SLIDE) {
-    FOR_EACH_LIGHT(forward_lights, tile, lo, hi, zbin_mask_slide, SHADE);
-  } else {
-    FOR_EACH_LIGHT(forward_lights, tile, lo, hi, zbin_mask, SHADE);
-  }
+  uint bin = camera.light_path == LIGHT_PATH_FLAT ? (MAX_LIGHTS - 1u) << 16 : zbins[zbin_of(1.0 / gl_FragCoord.w)];
+  LampWalk start = start_walk(tile * LIGHT_WORDS, bin & 0xFFFFu, bin >> 16, camera.light_path == LIGHT_PATH_SLIDE), walk = start;
+  for (uint i = next_of_walk(walk); i != NO_LAMP; i = next_of_walk(walk))
+    if (is_plain(i)) add_lamp(sum, s, lights[i], PLAIN_FEATURES);
+  walk = start;
+  for (uint i = next_special(walk); i != NO_LAMP; i = next_special(walk)) add_lamp(sum, s, lights[i], ALL_FEATURES);
 }
 
 void main() {
@@ -49,5 +48,6 @@ void main() {
   float reflects = fresnel(vec3(0.04), s.n_eye).r;
   sum.specular += reflects * sky_specular(reflect(-eye, n), m.roughness) * m.metallic;  // metallic: how open to the sky it lies
   float alpha = clamp(m.base_color.a + reflects, 0.0, 1.0);
-  hdr = vec4(sum.diffuse + sum.specular / alpha + m.emissive, alpha);
+  vec3 color = max(sum.diffuse + sum.specular / alpha, 0.0) + m.emissive;
+  hdr = vec4(through_fog(color, gl_FragCoord.xy * camera.inverse_size, 1.0 / gl_FragCoord.w), alpha);
 }

@@ -8,20 +8,46 @@ const TEXTURE_SIZE = 256
 const TEXTURE_LAYERS = 32
 const TEXTURE_MIPS = 9
 
-const LIGHT_OMNI = 0
-const LIGHT_SPOT = 1
-struct Light {      // sorted by `nearest`, ascending
-  position:   vec3  // world, metres
-  range:      f32   // contributes exactly nothing from here on
-  color:      vec3  // radiant intensity
-  kind:       u32   // LIGHT_*
-  direction:  vec3  // spots shine along it
-  cos_outer:  f32
-  nearest:    f32   // view depth of the bounding sphere, with a margin
-  farthest:   f32
-  cone_scale: f32   // 1 / (cos_inner - cos_outer)
-  sin_outer:  f32
+const MAX_LAMP_SHADOWS = 8
+
+// What a lamp can do; shading kernels are chosen by the union over a tile. A lamp with none of them is a point.
+const LAMP_ROUND = 1       // shines in a cone
+const LAMP_SQUARE = 2      // ... in a pyramid
+const LAMP_SHADOW = 4      // has a shadow map
+const LAMP_SOFT = 8        // ... and a penumbra that grows with the distance from what casts it
+const LAMP_PROJECTED = 16  // throws a picture
+const LAMP_AREA = 32       // a rectangle that shows a picture
+const LAMP_TUBE = 64       // a capsule; of no length, a sphere
+const LAMP_DARK = 128      // takes light away
+const LAMP_CLIPPED = 256   // shines on one side of each of two planes only
+const LAMP_FEATURES = 9
+struct Light {             // sorted by `nearest`, ascending
+  position:  vec3          // world, metres; the middle of what shines
+  range:     f32           // contributes exactly nothing from here on
+  color:     vec3          // radiant intensity; of an area, radiance where its picture is white
+  features:  u32           // LAMP_*
+  direction: vec3          // spots and areas shine along it
+  cos_outer: f32           // of the cone around everything that a spot reaches
+  side:      vec3          // unit, across the direction; tubes lie along it
+  sin_outer: f32
+  nearest:   f32           // view depth of the bounding sphere, with a margin
+  farthest:  f32
+  edge:      f32           // steepness of a spot's rim: round: 1 / (cos_inner - cos_outer), square: 1 / (1 - inner / outer) in slopes
+  cot:       f32           // 1 / slope of the sides of a square, projected or shadowed spot
+  size:      vec2          // half length and radius of a tube, half sides of an area, radius of a soft lamp, metres
+  picture:   u32           // layer of Scene::albedo_maps
+  shadow:    u32           // layer of the lamps' shadow map
+  clip:      vec4[2]       // shines where dot(clip, (p, 1)) >= 0
 }
+struct LampView {          // of one shadow map
+  position:  vec3
+  range:     f32
+  side:      vec3
+  cot:       f32
+  direction: vec3
+  used:      u32
+}
+struct LampViews { view: LampView[8] }
 
 const INSTANCE_SHADOW = 1  // casts a shadow
 const INSTANCE_GLASS = 2   // drawn by `transparent` only
@@ -62,15 +88,28 @@ struct PropVertex {  // layout 2: props, read as vertex attributes
   spare:    u32
 }
 
+const MAX_FOG_VOLUMES = 32
+// A box with fog of its own. What masks it is a texture seen along the box's y axis.
+struct FogVolume {
+  to_box:  mat3x4  // columns are the rows of the affine matrix: the box is -1 .. 1 in its own space
+  density: f32     // extinction in its middle, 1 / metre
+  edge:    f32     // share of the half side over which it fades
+  layer:   u32     // of Scene::albedo_maps
+  repeats: f32     // of the texture along the box
+  scroll:  vec2    // repeats a second
+  spare:   vec2
+}
+
 interface Scene {
   lights:       buffer Light[]  ready as storage in compute, fragment
+  fog_volumes:  buffer FogVolume[]  ready as storage in compute
   instances:    buffer Instance[]  ready as storage in compute, vertex, fragment
   materials:    buffer Material[]  ready as storage in fragment
   vertices:     buffer Vertex[]  ready as storage in vertex
   indices:      buffer u32[]  ready as storage in vertex
   props:        buffer PropVertex[]  ready as vertex
   prop_indices: buffer u32[]  ready as index
-  albedo_maps:  image rgba8_srgb 256x256 layers 32 mips 9  ready as sampled in fragment
+  albedo_maps:  image rgba8_srgb 256x256 layers 32 mips 9  ready as sampled in compute, fragment
   surface_maps: image rgba8 256x256 layers 32 mips 9  ready as sampled in fragment
 }
 

@@ -31,7 +31,7 @@ bool contains(const frame::Light& light, glm::dvec3 point) {
   const glm::dvec3 from = point - to_double(light.position);
   const double distance = glm::length(from);
   if (distance >= light.range) return false;
-  if (light.kind != static_cast<uint32_t>(frame::LIGHT_SPOT)) return true;
+  if ((light.features & static_cast<uint32_t>(frame::LAMP_ROUND | frame::LAMP_SQUARE)) == 0) return true;
   return glm::dot(from / std::max(distance, 1e-9), to_double(light.direction)) > light.cos_outer;
 }
 

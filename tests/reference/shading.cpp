@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/reference/culling.h"
 
 namespace rg::reference {
 namespace {
@@ -19,7 +18,7 @@ double lambda(double cosine, double alpha) {
 
 }  // namespace
 
-glm::dvec3 reflected(const SurfacePoint& s, glm::dvec3 direction, glm::dvec3 strength) {
+glm::dvec3 specular_reflected(const SurfacePoint& s, glm::dvec3 direction, glm::dvec3 strength) {
   const double n_l = glm::dot(s.normal, direction), n_v = std::max(glm::dot(s.normal, s.eye), 1e-3);
   if (n_l <= 0) return glm::dvec3(0);
   const double alpha = s.roughness * s.roughness;
@@ -29,26 +28,12 @@ glm::dvec3 reflected(const SurfacePoint& s, glm::dvec3 direction, glm::dvec3 str
   const double masking = 1 / (1 + lambda(n_l, alpha) + lambda(n_v, alpha));
   const glm::dvec3 f0 = glm::mix(glm::dvec3(0.04), s.base, s.metallic);
   const glm::dvec3 fresnel = f0 + (1.0 - f0) * std::pow(1 - v_h, 5);
-  const glm::dvec3 specular = fresnel * (distribution * masking / (4 * n_l * n_v));
-  const glm::dvec3 diffuse = s.base * ((1 - s.metallic) / kPi);
-  return (diffuse + specular) * strength * n_l;
+  return fresnel * (distribution * masking / (4 * n_l * n_v)) * strength * n_l;
 }
 
-glm::dvec3 lamp_radiance(const SurfacePoint& s, const frame::Light& light) {
-  const glm::dvec3 to = to_double(light.position) - s.position;
-  const double distance2 = glm::dot(to, to), range2 = static_cast<double>(light.range) * light.range;
-  if (distance2 >= range2) return glm::dvec3(0);
-  const glm::dvec3 l = glm::normalize(to);
-  double strength = std::pow(std::max(1 - std::pow(distance2 / range2, 2), 0.0), 2) / (distance2 + 0.01);
-  if (light.kind == static_cast<uint32_t>(frame::LIGHT_SPOT))
-    strength *= std::pow(std::clamp((glm::dot(-l, to_double(light.direction)) - light.cos_outer) * light.cone_scale, 0.0, 1.0), 2);
-  return reflected(s, l, to_double(light.color) * strength);
-}
-
-glm::dvec3 lamps_radiance(const SurfacePoint& surface, const std::vector<frame::Light>& lights) {
-  glm::dvec3 sum(0);
-  for (const frame::Light& light : lights) sum += lamp_radiance(surface, light);
-  return sum;
+glm::dvec3 reflected(const SurfacePoint& s, glm::dvec3 direction, glm::dvec3 strength) {
+  const glm::dvec3 diffuse = s.base * ((1 - s.metallic) / kPi) * strength * std::max(glm::dot(s.normal, direction), 0.0);
+  return diffuse + specular_reflected(s, direction, strength);
 }
 
 glm::dvec3 decode_normal(uint16_t x, uint16_t y) {

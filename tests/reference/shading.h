@@ -13,10 +13,9 @@ struct SurfacePoint {
   glm::dvec3 base{1};
   double roughness = 1, metallic = 0;
 };
-// Radiance towards the eye: of one lamp; of all of them; of a light from `direction` with irradiance `strength` on a plane that faces it.
-glm::dvec3 lamp_radiance(const SurfacePoint& surface, const frame::Light& light);
-glm::dvec3 lamps_radiance(const SurfacePoint& surface, const std::vector<frame::Light>& lights);
+// Radiance towards the eye of a light from `direction` with irradiance `strength` on a plane that faces it; its glossy part alone.
 glm::dvec3 reflected(const SurfacePoint& surface, glm::dvec3 direction, glm::dvec3 strength);
+glm::dvec3 specular_reflected(const SurfacePoint& surface, glm::dvec3 direction, glm::dvec3 strength);
 
 // Octahedral normal from two unorm16.
 glm::dvec3 decode_normal(uint16_t x, uint16_t y);

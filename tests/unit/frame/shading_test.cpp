@@ -3,6 +3,7 @@
 
 #include "examples/demo/mesh_builder.h"
 #include "tests/reference/culling.h"
+#include "tests/reference/lamps.h"
 #include "tests/unit/frame/lab.h"
 
 namespace rg::test {
@@ -32,7 +33,14 @@ reference::SurfacePoint surface_at(const GBuffer& g, const FrameData& data, int 
   return s;
 }
 
-void keep_lamps_only(FrameData& data) { data.view.sun_color = data.view.ambient = {0, 0, 0}; }
+void clear_fog(FrameData& data) {
+  data.fog.density = 0;
+  data.fog.volume_count = 0;
+}
+void keep_lamps_only(FrameData& data) {
+  data.view.sun_color = data.view.ambient = {0, 0, 0};
+  clear_fog(data);
+}
 
 // Half precision rounds to 2^-11.
 void expect_close(const glm::vec4& actual, const glm::dvec3& expected, const glm::dvec3& slack, int x, int y) {
@@ -122,6 +130,7 @@ double sun_visibility(const Texels& shadow, const FrameData& data, const referen
 TEST(DeferredLight, SunGoesThroughTheShadowMap) {
   Lab& lab = plaza_lab();
   FrameData data = lab.prepare(2);
+  clear_fog(data);
   data.view.ambient = {0, 0, 0};
   data.view.light_count = 0;
   data.lights.clear();

@@ -1,0 +1,91 @@
+// Fog in froxels: a volume of cells along the view. Media go in, light is scattered, and both are summed up from near to far; whoever
+// shades a point then reads one texel. Groups are clusters of 4 x 4 x 4 froxels, so that what a cluster holds is found once for all of them.
+module fog
+
+import "passes/view/view.rg"
+import "passes/scene/scene.rg"
+
+const FOG_CLUSTER = 4   // froxels a side
+const FOG_CASCADES = 4  // ranges of depth, each with its share of the slices
+
+extent froxels = runtime(64, 36, 64) max(160, 96, 128)  // slices: a multiple of FOG_CLUSTER * FOG_CASCADES
+
+const FOG_SUN = 1  // of `terms`
+const FOG_LIGHTS = 2
+const FOG_AMBIENT = 4
+
+struct Fog {
+  ends:           vec4  // view depth where each cascade ends, metres, ascending; its slices divide it evenly
+  previous_ends:  vec4  // last frame's
+  start:          f32   // where the first one begins
+  previous_start: f32
+  density:        f32   // extinction at height `ground` and below, 1 / metre
+  ground:         f32   // height, metres
+  thinning:       f32   // above it, 1 / metre
+  phase:          f32   // mean cosine of the angle that sunlight is scattered by (Henyey and Greenstein)
+  blend:          f32   // share of the new frame, 1: history counts for nothing
+  terms:          u32   // FOG_*: which light is scattered
+  albedo:         vec3  // share of light that is scattered, not absorbed
+  volume_count:   u32
+  jitter:         vec3  // of this frame's samples, froxels, within half a froxel of the centre
+  spare:          f32
+  count:          vec3  // froxels
+}
+
+technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow,
+    inout image scattered, inout image transmittance)
+{
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]  // one bit each
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  image  density         : r16f froxels
+  image  inscatter       : r11g11b10f froxels
+  image  extinction      : r16f froxels
+  image  memory          : rgba16f froxels history 1 init clear -1                                // rgb: inscatter, a: extinction, negative where nothing is known
+
+  pass cull : compute queue compute may {
+    shader "fog_cull.comp" group 64 1 1
+    params camera
+    params fog
+    read   lights as storage
+    read   volumes as storage
+    write  cluster_volumes as storage
+    write  cluster_lights as storage
+    dispatch groups ceil(froxels / FOG_CLUSTER)
+  }
+  pass inject : compute queue compute may {
+    shader "fog_inject.comp" group 64 1 1
+    params camera
+    params fog
+    read   volumes as storage
+    read   cluster_volumes as storage
+    read   albedo_maps as sampled(surface_sampler)
+    write  density as storage
+    dispatch groups ceil(froxels / FOG_CLUSTER)
+  }
+  pass light : compute queue compute may {
+    shader "fog_light.comp" group 64 1 1
+    params camera
+    params fog
+    read   lights as storage
+    read   cluster_lights as storage
+    read   density as sampled
+    read   albedo_maps as sampled(surface_sampler)
+    read   sun_shadow as sampled
+    read   lamp_shadow as sampled
+    read   memory.prev(1) as sampled(linear_clamp)
+    write  inscatter as storage
+    write  extinction as storage
+    write  memory as storage
+    dispatch groups ceil(froxels / FOG_CLUSTER)
+  }
+  pass integrate : compute queue compute may {
+    shader "fog_integrate.comp" group 8 8 1
+    params camera
+    params fog
+    read   inscatter as sampled
+    read   extinction as sampled
+    write  scattered as storage
+    write  transmittance as storage
+    dispatch over [froxels.x, froxels.y]
+  }
+}
