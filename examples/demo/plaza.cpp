@@ -82,6 +82,7 @@ constexpr Row kMaterials[] = {
     {"glass", {0.75f, 0.85f, 0.85f}, 0.06f, 0.25f, 0, layer::flat, 1, {}, 0.10f},
     {"water", {0.05f, 0.16f, 0.17f}, 0.07f, 0.9f, 1, layer::flat, 1, {}, 0.55f},
     {"green glass", {0.10f, 0.42f, 0.30f}, 0.05f, 0.6f, 0, layer::flat, 1, {}, 0.45f},
+    {"rose screen", {1, 1, 1}, 0.4f, 0, 0, layer::roses, 1.4f, {2.6f, 2.6f, 2.6f}, 1},
 };
 static_assert(std::size(kMaterials) == paint_of::count);
 
@@ -110,7 +111,7 @@ void let_in_fog(Scene& scene) {
   };
   box({0, 0.35f, 0}, {plan::court_x + 2, 0.75f, plan::court_z + 2}, 0.10f, {0.012f, 0.005f}, 3);
   box({0, 1.6f, 1}, {3.4f, 1.8f, 3.4f}, 0.16f, {-0.02f, 0.03f}, 1);
-  box({0, 3.0f, -18}, {plan::hall_x, 2.6f, 4.2f}, 0.03f, {0.004f, 0.003f}, 1.5f);
+  box({0, 3.0f, -18}, {plan::hall_x, 2.6f, 4.2f}, 0.022f, {0.004f, 0.003f}, 1.5f);
 }
 
 }  // namespace
@@ -133,6 +134,7 @@ Scene make_plaza() {
   build_hall(shop);
   build_props(shop);
   hang_lights(shop);
+  put_on_shows(shop);
   bake_sky(shop.scene, shop.solids);
   set_cameras(shop.scene);
   let_in_fog(shop.scene);

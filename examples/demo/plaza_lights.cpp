@@ -50,8 +50,6 @@ void light_fountain(Workshop& shop) {
 void light_walks(Workshop& shop) {
   for (const vec3& at : hanging_lantern_places()) omni(shop, at, kWarm * 1.7f, 5.5f, {Motion::drift, 0.05f, 0.35f, 0.3f * at.x});
   for (const vec3& at : lantern_post_places()) omni(shop, at, kWarm * 2.6f, 7.0f);
-  for (int i = 0; i < 4; ++i)
-    omni(shop, {plan::court_x + plan::walk - 0.25f, 2.9f, -6.0f + 4.0f * static_cast<float>(i)}, (i % 2 == 0 ? kTeal : kRose) * 0.8f, 3.2f);
   for (int i = 0; i < 16; ++i) {
     const float x = -4.8f + 1.2f * static_cast<float>(i % 9), z = -plan::court_z + (i < 9 ? 1.95f : 0.5f), y = i < 9 ? 0.14f : 0.9f;
     omni(shop, {x, y, z}, kWarm * 0.22f, 1.6f);
@@ -59,14 +57,16 @@ void light_walks(Workshop& shop) {
 }
 
 void light_hall(Workshop& shop) {
+  const size_t first = shop.scene.lights.size();
   uint32_t seed = 300;
   for (const vec3& at : candle_places()) omni(shop, at + vec3(0, 0.05f, 0), kCandle * 0.6f, 5.5f, {Motion::drift, 0.012f, 2.3f, random_unit(seed++)});
-  omni(shop, {0, plan::terrace + 0.45f, plan::hall_back + 0.75f}, vec3(1.0f, 0.36f, 0.08f) * 3.4f, 6.5f, {Motion::drift, 0.05f, 1.7f, 0});
+  omni(shop, {0, plan::terrace + 0.45f, plan::hall_back + 0.75f}, vec3(1.0f, 0.36f, 0.08f) * 1.4f, 4.5f, {Motion::drift, 0.05f, 1.7f, 0});
   omni(shop, {-0.4f, plan::terrace + 0.35f, plan::hall_back + 0.7f}, vec3(1.0f, 0.30f, 0.05f) * 1.2f, 3.5f, {Motion::drift, 0.04f, 2.9f, 0.4f});
   for (const float side : {-1.0f, 1.0f})
     for (int i = 0; i < 3; ++i)
       spot(shop, {side * 6.6f, 4.9f, -20.6f + 2.6f * static_cast<float>(i)}, {side * 0.22f, -1, 0}, vec3(1.0f, 0.68f, 0.38f) * 2.2f, 5.0f, 0.3f,
            0.7f);
+  for (size_t i = first; i < shop.scene.lights.size(); ++i) keep_inside(shop.scene.lights[i]);
 }
 
 void release_fireflies(Workshop& shop) {

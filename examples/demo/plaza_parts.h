@@ -48,6 +48,7 @@ enum : uint32_t {
   glass,
   water,
   green_glass,
+  rose_screen,
   count
 };
 }
@@ -71,6 +72,8 @@ void build_arcades(Workshop& shop);  // columns, arches, walks, upper floors, ro
 void build_hall(Workshop& shop);     // the room
 void build_props(Workshop& shop);    // lanterns, strings of bulbs, banners, barrels
 void hang_lights(Workshop& shop);
+void put_on_shows(Workshop& shop);  // lamps that throw pictures, have shadows or an extent, or take light away
+void keep_inside(Light& light);     // a lamp of the hall shines in the hall only
 
 // Bulbs of the strings over the court, shared by props and lights.
 struct Bulb {

@@ -65,8 +65,8 @@ void main() {
   if (any(greaterThanEqual(pixel, ivec2(camera.size)))) return;
   vec2 at = vec2(pixel) + 0.5;
   float d = texelFetch(depth, pixel, 0).r;
-  if (d <= 0.0) {
-    bool shown = camera.debug_view == DEBUG_FINAL;
+  bool shown = camera.debug_view == DEBUG_FINAL, lit = shown || camera.debug_view == DEBUG_DIFFUSE || camera.debug_view == DEBUG_SPECULAR;
+  if (d <= 0.0 || !lit) {
     vec3 sky = through_fog(sky_radiance(normalize(world_ray(at)), true), at * camera.inverse_size, FAR);
     imageStore(hdr, pixel, vec4(shown ? sky : vec3(0.0), 1.0));
     return;

@@ -1,7 +1,7 @@
 // Lamps. Each feature is one plain `if` on `kernel`, a constant: code for features that it leaves out is not there. Needs brdf.glsl, `lights`,
 // `albedo_maps`, `lamp_shadow`.
 const uint ALL_FEATURES = 0xFFFFFFFFu;
-const uint PLAIN_FEATURES = LAMP_ROUND;
+const uint PLAIN_FEATURES = LAMP_ROUND | LAMP_CLIPPED | LAMP_DARK;  // those that look nothing up and are a point
 
 #include "lamp_shadow.glsl"
 #include "lamp_shapes.glsl"

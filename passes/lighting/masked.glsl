@@ -31,7 +31,7 @@ uint next_of_walk(inout LampWalk w) {
   w.bits &= w.bits - 1u;
   return index;
 }
-// The next one that is more than a point or a round spot. Needs light.glsl.
+// The next one that is not plain. Needs light.glsl.
 uint next_special(inout LampWalk w) {
   uint index = next_of_walk(w);
   while (index != NO_LAMP && is_plain(index)) index = next_of_walk(w);
