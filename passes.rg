@@ -136,6 +136,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach what is opaque in the tile
   buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach anything in front of it
   buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
+  buffer tile_features  : u32[ceil(view / SHADE_TILE).area]          // union of what the lamps of a record can do
 
   pass zbin_build : compute {
     shader "passes/culling/zbin_build.comp" group 64 1 1
@@ -176,6 +177,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     read   scene.lights as storage
     read   depth as sampled
     write  tile_records as storage
+    write  tile_features as storage
     dispatch groups ceil(view / SHADE_TILE)
   }
 
@@ -296,6 +298,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     read   scattered as sampled(linear_clamp)
     read   transmittance as sampled(linear_clamp)
     read   tile_records as storage
+    read   tile_features as storage
     read   tile_lights as storage
     read   forward_lights as storage
     read   zbins as storage

@@ -134,59 +134,60 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::mul, .a = 6, .b = 74},  // 84
     {.op = ExprOp::mul, .a = 16, .b = 74},  // 85
     {.op = ExprOp::mul, .a = 22, .b = 74},  // 86
-    {.op = ExprOp::constant, .value = 272},  // 87
+    {.op = ExprOp::constant, .value = 264},  // 87
     {.op = ExprOp::mul, .a = 25, .b = 87},  // 88
-    {.op = ExprOp::mul, .a = 29, .b = 74},  // 89
-    {.op = ExprOp::mul, .a = 30, .b = 78},  // 90
-    {.op = ExprOp::constant, .value = 64},  // 91
-    {.op = ExprOp::ceil_div, .a = 3, .b = 91},  // 92
-    {.op = ExprOp::constant, .value = 8},  // 93
-    {.op = ExprOp::ceil_div, .a = 19, .b = 93},  // 94
-    {.op = ExprOp::ceil_div, .a = 20, .b = 93},  // 95
-    {.op = ExprOp::ceil_div, .a = 39, .b = 93},  // 96
-    {.op = ExprOp::ceil_div, .a = 40, .b = 93},  // 97
-    {.op = ExprOp::ceil_div, .a = 41, .b = 93},  // 98
-    {.op = ExprOp::ceil_div, .a = 42, .b = 93},  // 99
-    {.op = ExprOp::ceil_div, .a = 44, .b = 93},  // 100
-    {.op = ExprOp::ceil_div, .a = 45, .b = 93},  // 101
-    {.op = ExprOp::ceil_div, .a = 46, .b = 93},  // 102
-    {.op = ExprOp::ceil_div, .a = 47, .b = 93},  // 103
-    {.op = ExprOp::ceil_div, .a = 7, .b = 93},  // 104
-    {.op = ExprOp::ceil_div, .a = 8, .b = 93},  // 105
-    {.op = ExprOp::ceil_div, .a = 49, .b = 93},  // 106
-    {.op = ExprOp::ceil_div, .a = 50, .b = 93},  // 107
-    {.op = ExprOp::ceil_div, .a = 52, .b = 93},  // 108
-    {.op = ExprOp::ceil_div, .a = 53, .b = 93},  // 109
-    {.op = ExprOp::ceil_div, .a = 55, .b = 93},  // 110
-    {.op = ExprOp::ceil_div, .a = 56, .b = 93},  // 111
-    {.op = ExprOp::ceil_div, .a = 57, .b = 91},  // 112
-    {.op = ExprOp::ceil_div, .a = 6, .b = 91},  // 113
-    {.op = ExprOp::ceil_div, .a = 27, .b = 93},  // 114
-    {.op = ExprOp::ceil_div, .a = 28, .b = 93},  // 115
-    {.op = ExprOp::ceil_div, .a = 1, .b = 78},  // 116
-    {.op = ExprOp::ceil_div, .a = 2, .b = 78},  // 117
-    {.op = ExprOp::ceil_div, .a = 1, .b = 93},  // 118
-    {.op = ExprOp::ceil_div, .a = 2, .b = 93},  // 119
-    {.op = ExprOp::ceil_div, .a = 58, .b = 93},  // 120
-    {.op = ExprOp::ceil_div, .a = 59, .b = 93},  // 121
-    {.op = ExprOp::ceil_div, .a = 60, .b = 93},  // 122
-    {.op = ExprOp::ceil_div, .a = 61, .b = 93},  // 123
-    {.op = ExprOp::ceil_div, .a = 62, .b = 93},  // 124
-    {.op = ExprOp::ceil_div, .a = 63, .b = 93},  // 125
-    {.op = ExprOp::ceil_div, .a = 27, .b = 78},  // 126
-    {.op = ExprOp::ceil_div, .a = 28, .b = 78},  // 127
-    {.op = ExprOp::ceil_div, .a = 64, .b = 93},  // 128
-    {.op = ExprOp::ceil_div, .a = 65, .b = 93},  // 129
-    {.op = ExprOp::ceil_div, .a = 66, .b = 93},  // 130
-    {.op = ExprOp::ceil_div, .a = 67, .b = 93},  // 131
-    {.op = ExprOp::constant, .value = 3},  // 132
-    {.op = ExprOp::constant, .value = 49152},  // 133
-    {.op = ExprOp::constant, .value = 32768},  // 134
-    {.op = ExprOp::constant, .value = 81920},  // 135
-    {.op = ExprOp::constant, .value = 114688},  // 136
-    {.op = ExprOp::constant, .value = 16384},  // 137
-    {.op = ExprOp::constant, .value = 65536},  // 138
-    {.op = ExprOp::constant, .value = 98304},  // 139
+    {.op = ExprOp::mul, .a = 25, .b = 74},  // 89
+    {.op = ExprOp::mul, .a = 29, .b = 74},  // 90
+    {.op = ExprOp::mul, .a = 30, .b = 78},  // 91
+    {.op = ExprOp::constant, .value = 64},  // 92
+    {.op = ExprOp::ceil_div, .a = 3, .b = 92},  // 93
+    {.op = ExprOp::constant, .value = 8},  // 94
+    {.op = ExprOp::ceil_div, .a = 19, .b = 94},  // 95
+    {.op = ExprOp::ceil_div, .a = 20, .b = 94},  // 96
+    {.op = ExprOp::ceil_div, .a = 39, .b = 94},  // 97
+    {.op = ExprOp::ceil_div, .a = 40, .b = 94},  // 98
+    {.op = ExprOp::ceil_div, .a = 41, .b = 94},  // 99
+    {.op = ExprOp::ceil_div, .a = 42, .b = 94},  // 100
+    {.op = ExprOp::ceil_div, .a = 44, .b = 94},  // 101
+    {.op = ExprOp::ceil_div, .a = 45, .b = 94},  // 102
+    {.op = ExprOp::ceil_div, .a = 46, .b = 94},  // 103
+    {.op = ExprOp::ceil_div, .a = 47, .b = 94},  // 104
+    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 105
+    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 106
+    {.op = ExprOp::ceil_div, .a = 49, .b = 94},  // 107
+    {.op = ExprOp::ceil_div, .a = 50, .b = 94},  // 108
+    {.op = ExprOp::ceil_div, .a = 52, .b = 94},  // 109
+    {.op = ExprOp::ceil_div, .a = 53, .b = 94},  // 110
+    {.op = ExprOp::ceil_div, .a = 55, .b = 94},  // 111
+    {.op = ExprOp::ceil_div, .a = 56, .b = 94},  // 112
+    {.op = ExprOp::ceil_div, .a = 57, .b = 92},  // 113
+    {.op = ExprOp::ceil_div, .a = 6, .b = 92},  // 114
+    {.op = ExprOp::ceil_div, .a = 27, .b = 94},  // 115
+    {.op = ExprOp::ceil_div, .a = 28, .b = 94},  // 116
+    {.op = ExprOp::ceil_div, .a = 1, .b = 78},  // 117
+    {.op = ExprOp::ceil_div, .a = 2, .b = 78},  // 118
+    {.op = ExprOp::ceil_div, .a = 1, .b = 94},  // 119
+    {.op = ExprOp::ceil_div, .a = 2, .b = 94},  // 120
+    {.op = ExprOp::ceil_div, .a = 58, .b = 94},  // 121
+    {.op = ExprOp::ceil_div, .a = 59, .b = 94},  // 122
+    {.op = ExprOp::ceil_div, .a = 60, .b = 94},  // 123
+    {.op = ExprOp::ceil_div, .a = 61, .b = 94},  // 124
+    {.op = ExprOp::ceil_div, .a = 62, .b = 94},  // 125
+    {.op = ExprOp::ceil_div, .a = 63, .b = 94},  // 126
+    {.op = ExprOp::ceil_div, .a = 27, .b = 78},  // 127
+    {.op = ExprOp::ceil_div, .a = 28, .b = 78},  // 128
+    {.op = ExprOp::ceil_div, .a = 64, .b = 94},  // 129
+    {.op = ExprOp::ceil_div, .a = 65, .b = 94},  // 130
+    {.op = ExprOp::ceil_div, .a = 66, .b = 94},  // 131
+    {.op = ExprOp::ceil_div, .a = 67, .b = 94},  // 132
+    {.op = ExprOp::constant, .value = 3},  // 133
+    {.op = ExprOp::constant, .value = 49152},  // 134
+    {.op = ExprOp::constant, .value = 32768},  // 135
+    {.op = ExprOp::constant, .value = 81920},  // 136
+    {.op = ExprOp::constant, .value = 114688},  // 137
+    {.op = ExprOp::constant, .value = 16384},  // 138
+    {.op = ExprOp::constant, .value = 65536},  // 139
+    {.op = ExprOp::constant, .value = 98304},  // 140
 };
 
 constexpr Extent kExtents[] = {
@@ -234,18 +235,18 @@ constexpr Resource kResources[] = {
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
     {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
-     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 38, .file = "passes/fog/fog.rg"},
+     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 93, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 39, .file = "passes/fog/fog.rg"},
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 94, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 40, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 95, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 41, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 96, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.extinction", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 42, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 97, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
-     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 43,
+     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 98,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
@@ -256,39 +257,41 @@ constexpr Resource kResources[] = {
     {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
      .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
     {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 18995712, .line = 134, .file = "passes.rg"},
+     .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
     {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
      .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
     {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18284544, .line = 136, .file = "passes.rg"},
     {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 272, .estimated_bytes = 250368,
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
      .estimated_alignment = 256, .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
+    {.name = "tile_features", .kind = ResourceKind::buffer, .usage = 32, .bytes = 89, .stride = 4, .estimated_bytes = 3840,
+     .estimated_alignment = 256, .estimated_offset = 19021056, .line = 139, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 183, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 185, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 184, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 186, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 185, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 187, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 186, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 188, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 187, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 189, .file = "passes.rg"},
     {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 18153472, .line = 223, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18153472, .line = 225, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 224, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 226, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .line = 283, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 89, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1638400, .line = 307, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 90, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 308, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 285, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
+     .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .copies = 2,
+     .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 309, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 312, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 310, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 313, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -410,58 +413,61 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 38, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.cull
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.cull
+    // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .writes = true},  // froxel_fog.cull
+     .writes = true},  // froxel_fog.clusters.cull
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .writes = true},  // froxel_fog.cull
+     .writes = true},  // froxel_fog.clusters.cull
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.inject
-    // froxel_fog.inject
+    // froxel_fog.chain.inject
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    // froxel_fog.chain.inject
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.inject
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.inject
     {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.inject
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.inject
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.light
-    // froxel_fog.light
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.chain.light
+    // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.light
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
     {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.integrate
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.integrate
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
@@ -538,6 +544,8 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // tile_cull
     // tile_cull
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    // tile_cull
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // ambient_occlusion
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -641,6 +649,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // debug_view
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::forward_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
@@ -701,12 +710,12 @@ constexpr Pass kPasses[] = {
     {.name = "mesh_cull.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 25, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 92, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
     {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
      .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 38, .file = "passes.rg"},
     {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 10, .access_count = 2, .pipeline = 2,
-     .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 92, .y = 18, .z = 30},
+     .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 18, .z = 30},
      .line = 63, .file = "passes.rg"},
     {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
      .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
@@ -738,7 +747,7 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
     {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
-     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 94, .y = 95, .z = 30}, .line = 116, .file = "passes.rg"},
+     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 116, .file = "passes.rg"},
     {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 9,
      .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
@@ -748,124 +757,124 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
     {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
-     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 96, .y = 97, .z = 30}, .mip_limit_count = 1, .line = 123,
+     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 123,
      .file = "passes.rg"},
     {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 11,
      .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "froxel_fog.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
+    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
      .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 45, .file = "passes/fog/fog.rg"},
+     .line = 38, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
-     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 98, .y = 99, .z = 30}, .first_mip_limit = 1,
+     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
+    {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
      .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 55, .file = "passes/fog/fog.rg"},
+     .line = 53, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
-     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 100, .y = 101, .z = 30}, .first_mip_limit = 3,
+     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
+    {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
      .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 65, .file = "passes/fog/fog.rg"},
+     .line = 63, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
-     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 103, .z = 30}, .first_mip_limit = 5,
+     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
+    {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
      .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 30}, .line = 81, .file = "passes/fog/fog.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 79, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
-     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 30}, .first_mip_limit = 7,
+     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
-     .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 108, .y = 109, .z = 30}, .first_mip_limit = 9,
+     .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 9,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 99, .access_count = 2, .pipeline = 25,
-     .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 110, .y = 111, .z = 30}, .first_mip_limit = 11,
+     .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .first_mip_limit = 11,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 101, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 140, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 141, .file = "passes.rg"},
     {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 155, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 156, .file = "passes.rg"},
     {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
      .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 189, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 191, .file = "passes.rg"},
     {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
-     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 140,
+     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 141,
      .file = "passes.rg"},
     {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
      .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 112, .y = 30, .z = 30}, .line = 155, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 156, .file = "passes.rg"},
     {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
      .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 207, .file = "passes.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 209, .file = "passes.rg"},
     {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 148, .file = "passes.rg"},
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 149, .file = "passes.rg"},
     {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 134, .access_count = 5, .pipeline = 31, .first_binding = 116,
-     .binding_count = 6, .first_params = 27, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 163,
+     .binding_count = 6, .first_params = 27, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 164,
      .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 3, .pipeline = 32, .first_binding = 122,
-     .binding_count = 4, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 173,
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 4, .pipeline = 32, .first_binding = 122,
+     .binding_count = 5, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 174,
      .file = "passes.rg"},
-    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 142, .access_count = 3, .pipeline = 33,
-     .first_binding = 126, .binding_count = 4, .first_params = 29, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .line = 226, .file = "passes.rg"},
-    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 145, .access_count = 16, .pipeline = 34,
-     .first_binding = 130, .binding_count = 18, .first_params = 30, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 116, .y = 117, .z = 30}, .line = 234, .file = "passes.rg"},
-    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 161, .access_count = 14, .rendering = 14, .pipeline = 35,
-     .first_binding = 148, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
-     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 256, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 175, .access_count = 2, .rendering = 15, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 277, .file = "passes.rg"},
-    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 177, .access_count = 5, .pipeline = 36,
-     .first_binding = 162, .binding_count = 6, .first_params = 34, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 30}, .line = 326, .file = "passes.rg"},
-    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 182, .access_count = 2, .pipeline = 37,
-     .first_binding = 168, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .line = 336, .file = "passes.rg"},
-    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 184, .access_count = 2, .pipeline = 38,
-     .first_binding = 170, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 121, .z = 30}, .first_mip_limit = 13,
-     .mip_limit_count = 1, .line = 343, .file = "passes.rg"},
-    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 186, .access_count = 2, .pipeline = 39,
-     .first_binding = 172, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 122, .y = 123, .z = 30}, .first_mip_limit = 14,
-     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 188, .access_count = 15, .pipeline = 40,
-     .first_binding = 174, .binding_count = 17, .first_params = 35, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 30}, .line = 284, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 203, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 312, .file = "passes.rg"},
-    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 204, .access_count = 2, .pipeline = 41,
-     .first_binding = 191, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 30}, .first_mip_limit = 16,
-     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 206, .access_count = 2, .pipeline = 42, .first_binding = 193,
-     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 126, .y = 127, .z = 30}, .line = 312, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 43,
-     .first_binding = 195, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 30}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 3, .pipeline = 44, .first_binding = 197,
-     .binding_count = 4, .first_params = 37, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 318,
+    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 143, .access_count = 3, .pipeline = 33,
+     .first_binding = 127, .binding_count = 4, .first_params = 29, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 228, .file = "passes.rg"},
+    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 146, .access_count = 16, .pipeline = 34,
+     .first_binding = 131, .binding_count = 18, .first_params = 30, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 236, .file = "passes.rg"},
+    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 14, .pipeline = 35,
+     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
+     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 258, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 15, .push_bytes = 80,
+     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
+    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 5, .pipeline = 36,
+     .first_binding = 163, .binding_count = 6, .first_params = 34, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 329, .file = "passes.rg"},
+    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 183, .access_count = 2, .pipeline = 37,
+     .first_binding = 169, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 339, .file = "passes.rg"},
+    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 185, .access_count = 2, .pipeline = 38,
+     .first_binding = 171, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 13,
+     .mip_limit_count = 1, .line = 346, .file = "passes.rg"},
+    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 187, .access_count = 2, .pipeline = 39,
+     .first_binding = 173, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 14,
+     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 189, .access_count = 16, .pipeline = 40,
+     .first_binding = 175, .binding_count = 18, .first_params = 35, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 286, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 205, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 315, .file = "passes.rg"},
+    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 206, .access_count = 2, .pipeline = 41,
+     .first_binding = 193, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 16,
+     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 42, .first_binding = 195,
+     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 315, .file = "passes.rg"},
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 2, .pipeline = 43,
+     .first_binding = 197, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 18,
+     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 212, .access_count = 3, .pipeline = 44, .first_binding = 199,
+     .binding_count = 4, .first_params = 37, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 321,
      .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 213, .access_count = 2, .pipeline = 45,
-     .first_binding = 201, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 30}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 343, .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 215, .access_count = 2, .pipeline = 46,
-     .first_binding = 203, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 30}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 217, .access_count = 2, .pipeline = 47,
-     .first_binding = 205, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 30}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 219, .access_count = 2, .pipeline = 48,
-     .first_binding = 207, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 122, .y = 123, .z = 30}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 221, .access_count = 2, .pipeline = 49,
-     .first_binding = 209, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 121, .z = 30}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 351, .file = "passes.rg"},
-    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 2, .pipeline = 50,
-     .first_binding = 211, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 30}, .first_mip_limit = 30,
-     .mip_limit_count = 1, .line = 351, .file = "passes.rg"},
-    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 225, .access_count = 5, .rendering = 16, .pipeline = 51,
-     .first_binding = 213, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 132}, .line = 358,
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 215, .access_count = 2, .pipeline = 45,
+     .first_binding = 203, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 20,
+     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 217, .access_count = 2, .pipeline = 46,
+     .first_binding = 205, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 22,
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 219, .access_count = 2, .pipeline = 47,
+     .first_binding = 207, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 221, .access_count = 2, .pipeline = 48,
+     .first_binding = 209, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 2, .pipeline = 49,
+     .first_binding = 211, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
+    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 225, .access_count = 2, .pipeline = 50,
+     .first_binding = 213, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 30,
+     .mip_limit_count = 1, .line = 354, .file = "passes.rg"},
+    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 227, .access_count = 5, .rendering = 16, .pipeline = 51,
+     .first_binding = 215, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 133}, .line = 361,
      .file = "passes.rg"},
 };
 
@@ -954,48 +963,48 @@ constexpr ImageBarrier kImageBarriers[] = {
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
     {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.inject
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.inject
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.light
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.chain.light
     {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.light
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.chain.light
     {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.inject -> froxel_fog.light
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.inject -> froxel_fog.chain.light
     {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
     {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
     {.image = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.light
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.chain.light
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.integrate
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
     {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.integrate
+     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
     {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.light -> froxel_fog.integrate
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
     {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.light -> froxel_fog.integrate
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
@@ -1049,11 +1058,11 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> ambient_occlusion
-    // froxel_fog.integrate -> deferred_light
+    // froxel_fog.chain.integrate -> deferred_light
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
-    // froxel_fog.integrate -> deferred_light
+    // froxel_fog.chain.integrate -> deferred_light
     {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
@@ -1173,21 +1182,21 @@ constexpr BufferBarrier kBufferBarriers[] = {
     {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
      .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     // lamp_cull -> lamp_shadow_world[0]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 133}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 134}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[2] -> lamp_shadow_world[3]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 133, .size = 134}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 134, .size = 135}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 135, .size = 134}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136, .size = 135}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[6] -> lamp_shadow_world[7]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 137}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.cull -> froxel_fog.inject
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.inject
     {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.cull -> froxel_fog.light
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.light
     // frame start -> light_occlusion.clear
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     // zbin_build.clear -> zbin_build
@@ -1213,6 +1222,8 @@ constexpr BufferBarrier kBufferBarriers[] = {
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> deferred_light
     {.buffer = {.resource = resource::forward_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> transparent
+    {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> debug_view
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // luminance.clear -> luminance
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1231,30 +1242,30 @@ constexpr BarrierGroup kGroups[] = {
     {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:72
     {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:72
     {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:72
-    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.inject  passes/fog/fog.rg:55
-    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.light  passes/fog/fog.rg:65
-    {.first_image = 22, .image_count = 5},  // before froxel_fog.integrate  passes/fog/fog.rg:81
+    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:53
+    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:63
+    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:79
     {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
     {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
-    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:140
-    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:148
-    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:234
-    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:256
-    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:277
-    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:326
-    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:336
-    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:343
-    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:343
-    {.first_image = 59, .image_count = 2},  // before debug_view  passes.rg:284
-    {.first_image = 61, .image_count = 1, .first_buffer = 22, .buffer_count = 1},  // before luminance  passes.rg:312
-    {.first_image = 62, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before expose  passes.rg:318
-    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:351
-    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:351
-    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:351
-    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:351
-    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:351
-    {.first_image = 73, .image_count = 3, .first_buffer = 24, .buffer_count = 1},  // before tonemap  passes.rg:358
-    {.first_image = 76, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // at the end of the frame
+    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:141
+    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:149
+    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:236
+    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:258
+    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:279
+    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:329
+    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:339
+    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:346
+    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:346
+    {.first_image = 59, .image_count = 2, .first_buffer = 22, .buffer_count = 1},  // before debug_view  passes.rg:286
+    {.first_image = 61, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:315
+    {.first_image = 62, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before expose  passes.rg:321
+    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:354
+    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:354
+    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:354
+    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:354
+    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:354
+    {.first_image = 73, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:361
+    {.first_image = 76, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1278,14 +1289,14 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 133, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1343,6 +1354,7 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
@@ -1394,14 +1406,14 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 133, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1460,6 +1472,7 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
      .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
@@ -1538,6 +1551,8 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 46},
     {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 48},
+    {.resource = resource::tile_features, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
+     .first_clock = 50},
     {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
     {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
@@ -1549,14 +1564,14 @@ constexpr Acquire kAcquires[] = {
     {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 40},
     {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 50},
+     .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
     {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 14, .first_clock = 52},
+     .accesses = access::shader_storage_write, .point = 14, .first_clock = 54},
     {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 21, .first_clock = 56},
-    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 58},
+     .accesses = access::shader_storage_write, .point = 21, .first_clock = 58},
+    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 60},
     {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 54},
+     .accesses = access::shader_storage_write, .point = 18, .first_clock = 56},
 };
 
 constexpr Release kReleases[] = {
@@ -1580,6 +1595,7 @@ constexpr Release kReleases[] = {
     {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
     {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::tile_features, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::albedo, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::normal, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::material, .stages = stage::compute_shader, .point = 22},
@@ -1596,7 +1612,7 @@ constexpr Index kAliasClocks[] = {
     1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 6, 31, 6, 31,
     7, 31, 8, 31, 8, 31, 9, 31, 9, 31, 11, 31, 11, 31, 11, 31,
     11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 13, 31, 13, 31, 13, 31,
-    13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
+    13, 31, 13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
 };
 
 constexpr AliasPair kAliasPairs[] = {
@@ -1604,6 +1620,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::world_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::world_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::world_draws, .wraps = true},
+    {.before = resource::tile_features, .after = resource::world_draws, .wraps = true},
     {.before = resource::occlusion, .after = resource::world_draws, .wraps = true},
     {.before = resource::hdr, .after = resource::world_draws, .wraps = true},
     {.before = resource::debug_image, .after = resource::world_draws, .wraps = true},
@@ -1624,6 +1641,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::sun_draws, .wraps = true},
+    {.before = resource::tile_features, .after = resource::sun_draws, .wraps = true},
     {.before = resource::albedo, .after = resource::sun_draws, .wraps = true},
     {.before = resource::normal, .after = resource::sun_draws, .wraps = true},
     {.before = resource::material, .after = resource::sun_draws, .wraps = true},
@@ -1649,6 +1667,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::lamp_draws, .wraps = true},
+    {.before = resource::tile_features, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::albedo, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::normal, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::material, .after = resource::lamp_draws, .wraps = true},
@@ -1681,6 +1700,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
+    {.before = resource::tile_features, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
@@ -1701,6 +1721,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_cluster_lights, .wraps = true},
+    {.before = resource::tile_features, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_cluster_lights, .wraps = true},
@@ -1722,6 +1743,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_density, .wraps = true},
+    {.before = resource::tile_features, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_density, .wraps = true},
@@ -1742,6 +1764,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_inscatter, .wraps = true},
+    {.before = resource::tile_features, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_inscatter, .wraps = true},
@@ -1762,6 +1785,7 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_extinction, .wraps = true},
+    {.before = resource::tile_features, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_extinction, .wraps = true},
@@ -1842,6 +1866,14 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::froxel_fog_density, .after = resource::tile_records},
     {.before = resource::froxel_fog_inscatter, .after = resource::tile_records},
     {.before = resource::froxel_fog_extinction, .after = resource::tile_records},
+    {.before = resource::world_draws, .after = resource::tile_features},
+    {.before = resource::sun_draws, .after = resource::tile_features},
+    {.before = resource::lamp_draws, .after = resource::tile_features},
+    {.before = resource::froxel_fog_cluster_volumes, .after = resource::tile_features},
+    {.before = resource::froxel_fog_cluster_lights, .after = resource::tile_features},
+    {.before = resource::froxel_fog_density, .after = resource::tile_features},
+    {.before = resource::froxel_fog_inscatter, .after = resource::tile_features},
+    {.before = resource::froxel_fog_extinction, .after = resource::tile_features},
     {.before = resource::sun_draws, .after = resource::albedo},
     {.before = resource::lamp_draws, .after = resource::albedo},
     {.before = resource::froxel_fog_cluster_volumes, .after = resource::albedo},
@@ -1967,16 +1999,16 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 6},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_cull},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_inject},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_inject},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
     {.kind = StepKind::barriers, .index = 8},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_light},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_light},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
     {.kind = StepKind::barriers, .index = 9},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_integrate},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_integrate},
     {.kind = StepKind::pass, .index = pass::depth_range_down_5},
     {.kind = StepKind::barriers, .index = 10},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
@@ -2236,13 +2268,13 @@ constexpr Pipeline kPipelines[] = {
     {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 14, .shader_count = 1},
     {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 15, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "froxel_fog.cull", .pass = pass::froxel_fog_cull, .first_shader = 16, .shader_count = 1},
+    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 16, .shader_count = 1},
     {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
-    {.name = "froxel_fog.inject", .pass = pass::froxel_fog_inject, .first_shader = 18, .shader_count = 1},
+    {.name = "froxel_fog.chain.inject", .pass = pass::froxel_fog_chain_inject, .first_shader = 18, .shader_count = 1},
     {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
-    {.name = "froxel_fog.light", .pass = pass::froxel_fog_light, .first_shader = 20, .shader_count = 1},
+    {.name = "froxel_fog.chain.light", .pass = pass::froxel_fog_chain_light, .first_shader = 20, .shader_count = 1},
     {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 21, .shader_count = 1},
-    {.name = "froxel_fog.integrate", .pass = pass::froxel_fog_integrate, .first_shader = 22, .shader_count = 1},
+    {.name = "froxel_fog.chain.integrate", .pass = pass::froxel_fog_chain_integrate, .first_shader = 22, .shader_count = 1},
     {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 23, .shader_count = 1},
     {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 24, .shader_count = 1},
     {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 25, .shader_count = 1},
@@ -2338,65 +2370,67 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.cull
-    // froxel_fog.cull
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.clusters.cull
+    // froxel_fog.clusters.cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},
+    // froxel_fog.clusters.cull
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},  // froxel_fog.cull
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.cull
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.cull
+    // froxel_fog.clusters.cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.inject
-    // froxel_fog.inject
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.chain.inject
+    // froxel_fog.chain.inject
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
     {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.inject
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.inject
     {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.inject
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.inject
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.inject
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.inject
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.inject
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.inject
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.light
-    // froxel_fog.light
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.chain.light
+    // froxel_fog.chain.light
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
     {.binding = 2, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
     {.binding = 3, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.light
     {.binding = 4, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // froxel_fog.light
+     .layout = Layout::depth_read_only},  // froxel_fog.chain.light
     {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
-     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.light
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
     {.binding = 6, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.chain.light
     {.binding = 7, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
     {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
     {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.light
-    {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.light
-    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
+    {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.light
+    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.light
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+     .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.integrate
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.integrate
+     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
     {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.integrate
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.integrate
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.integrate
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.integrate
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.integrate
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -2442,7 +2476,8 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // tile_cull
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // tile_cull
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // tile_cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // tile_cull
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // tile_cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // ambient_occlusion
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
@@ -2543,13 +2578,14 @@ constexpr Binding kBindings[] = {
     {.binding = 9, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
      .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // debug_view
     {.binding = 10, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // debug_view
-    {.binding = 11, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
-    {.binding = 12, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
-    {.binding = 13, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
-    {.binding = 14, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
+    {.binding = 11, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // debug_view
+    {.binding = 12, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
+    {.binding = 13, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
+    {.binding = 14, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
-    {.binding = 15, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
-    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
+    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -2635,7 +2671,7 @@ constexpr Plan kPlan =
      .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders,
      .blends = kBlends, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers,
      .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .conditions = kConditions,
-     .estimated_heap_bytes = 19028480};
+     .estimated_heap_bytes = 19024896};
 
 }  // namespace
 

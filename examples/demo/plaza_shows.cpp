@@ -90,7 +90,7 @@ void light_hall_softly(Workshop& shop) {
   chandelier.size = {0.3f, 0};
   chandelier.clip[0] = {0, 0, -1, plan::hall_front - 0.15f};
   Light& window = add_spot(shop, lamp::square | lamp::projected | lamp::shadow | lamp::soft, {2.2f, 5.2f, -14.2f}, {-4.6f, plan::terrace + 0.4f, -20.4f},
-                           vec3(1.0f, 0.95f, 0.9f) * 170.0f, 13, 0.21f);
+                           vec3(1.0f, 0.95f, 0.9f) * 110.0f, 13, 0.21f);
   window.inner = 0.20f;
   window.size = {0.06f, 0};
   window.picture = layer::roses;

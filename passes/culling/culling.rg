@@ -11,7 +11,5 @@ const MAX_TILE_LIGHTS = 64
 struct TileRecord {  // of one 16 x 16 tile
   count:    u32
   overflow: u32      // lights dropped: those with the highest indices
-  features: u32      // union of the listed lamps' LAMP_* bits
-  spare:    u32
   light:    u32[64]  // ascending
 }

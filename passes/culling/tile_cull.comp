@@ -60,8 +60,7 @@ void main() {
   if (lane >= min(count, MAX_TILE_LIGHTS) && lane < MAX_TILE_LIGHTS) tile_records[tile].light[lane] = 0u;
   barrier();
   if (lane == 0u) {
-    tile_records[tile].features = features;
-    tile_records[tile].spare = 0u;
+    tile_features[tile] = features;
     tile_records[tile].count = min(count, uint(MAX_TILE_LIGHTS));
     tile_records[tile].overflow = count - min(count, uint(MAX_TILE_LIGHTS));
   }

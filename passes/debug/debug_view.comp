@@ -56,7 +56,7 @@ vec3 channel(ivec2 pixel) {
     case DEBUG_VELOCITY: return vec3(texelFetch(velocity, pixel, 0).rg * 20.0 + 0.5, 0.5);
     case DEBUG_FOG: return lit_view(fog_light((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
     case DEBUG_THROUGH: return vec3(fog_transmittance((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
-    case DEBUG_FEATURES: return heat(float(bitCount(tile_records[record_of(uvec2(pixel))].features)) / float(LAMP_FEATURES));
+    case DEBUG_FEATURES: return heat(float(bitCount(tile_features[record_of(uvec2(pixel))])) / float(LAMP_FEATURES));
     default: return vec3(0.0);
   }
 }

@@ -32,16 +32,9 @@ struct Fog {
   count:          vec3  // froxels
 }
 
-technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow,
-    inout image scattered, inout image transmittance)
+// Which lamps and boxes of fog reach each cluster, one bit each.
+technique fog_clusters(params camera: View, params fog: Fog, buffer lights, buffer volumes, inout buffer cluster_volumes, inout buffer cluster_lights)
 {
-  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]  // one bit each
-  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
-  image  density         : r16f froxels
-  image  inscatter       : r11g11b10f froxels
-  image  extinction      : r16f froxels
-  image  memory          : rgba16f froxels history 1 init clear -1                                // rgb: inscatter, a: extinction, negative where nothing is known
-
   pass cull : compute queue compute may {
     shader "fog_cull.comp" group 64 1 1
     params camera
@@ -52,6 +45,11 @@ technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer
     write  cluster_lights as storage
     dispatch groups ceil(froxels / FOG_CLUSTER)
   }
+}
+
+// Three kernels with volumes between them.
+technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer volumes, buffer cluster_volumes, buffer cluster_lights, image albedo_maps, image sun_shadow, image lamp_shadow, inout image density, inout image inscatter, inout image extinction, inout image memory, inout image scattered, inout image transmittance)
+{
   pass inject : compute queue compute may {
     shader "fog_inject.comp" group 64 1 1
     params camera
@@ -87,5 +85,45 @@ technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer
     write  scattered as storage
     write  transmittance as storage
     dispatch over [froxels.x, froxels.y]
+  }
+}
+
+technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow, inout image scattered, inout image transmittance)
+{
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  image  density         : r16f froxels
+  image  inscatter       : r11g11b10f froxels
+  image  extinction      : r16f froxels
+  image  memory          : rgba16f froxels history 1 init clear -1  // rgb: inscatter, a: extinction, negative where nothing is known
+
+  use clusters = fog_clusters(camera, fog, lights, volumes, cluster_volumes, cluster_lights)
+  use chain = fog_chain(camera, fog, lights, volumes, cluster_volumes, cluster_lights, albedo_maps, sun_shadow, lamp_shadow, density, inscatter, extinction, memory, scattered, transmittance)
+}
+
+// The same at the same ports in one kernel: groups walk their columns from near to far, and nothing is written but the sums and the history.
+technique merged_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow, inout image scattered, inout image transmittance)
+{
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  image  memory          : rgba16f froxels history 1 init clear -1
+
+  use clusters = fog_clusters(camera, fog, lights, volumes, cluster_volumes, cluster_lights)
+  pass merged : compute queue compute may {
+    shader "fog_merged.comp" group 64 1 1
+    params camera
+    params fog
+    read   lights as storage
+    read   volumes as storage
+    read   cluster_volumes as storage
+    read   cluster_lights as storage
+    read   albedo_maps as sampled(surface_sampler)
+    read   sun_shadow as sampled
+    read   lamp_shadow as sampled
+    read   memory.prev(1) as sampled(linear_clamp)
+    write  memory as storage
+    write  scattered as storage
+    write  transmittance as storage
+    dispatch groups ceil([froxels.x, froxels.y] / FOG_CLUSTER)
   }
 }

@@ -5,7 +5,6 @@
 void main() {
   ivec3 cell = froxel_of_lane(gl_WorkGroupID, gl_LocalInvocationID.x);
   if (any(greaterThanEqual(cell, imageSize(density)))) return;
-  vec3 p = view_to_world(froxel_to_view(vec3(cell) + 0.5 + fog.jitter));
   uint bits = cluster_volumes[cluster_index(gl_WorkGroupID, gl_NumWorkGroups)];
-  imageStore(density, cell, vec4(media_density(p, bits)));
+  imageStore(density, cell, vec4(media_density(sample_of(cell), bits)));
 }

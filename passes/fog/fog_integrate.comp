@@ -6,14 +6,12 @@ void main() {
   ivec2 column = ivec2(gl_GlobalInvocationID.xy);
   ivec3 size = imageSize(scattered);
   if (any(greaterThanEqual(column, size.xy))) return;
-  float slant = length(froxel_ray((vec2(column) + 0.5) / fog.count.xy)), begin = fog.start;
+  float slant = column_slant(column);
   Stretch sum = Stretch(vec3(0.0), 1.0);
   for (int z = 0; z < size.z; ++z) {
-    float end = slice_to_depth(float(z + 1), fog.count.z, fog.start, fog.ends);
     ivec3 cell = ivec3(column, z);
-    sum = join(sum, make_stretch(texelFetch(inscatter, cell, 0).rgb, texelFetch(extinction, cell, 0).r, (end - begin) * slant));
+    sum = join(sum, slice_stretch(vec4(texelFetch(inscatter, cell, 0).rgb, texelFetch(extinction, cell, 0).r), z, slant));
     imageStore(scattered, cell, vec4(sum.light, 1.0));
     imageStore(transmittance, cell, vec4(sum.through));
-    begin = end;
   }
 }

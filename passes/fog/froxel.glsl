@@ -8,6 +8,9 @@ vec3 view_to_world(vec3 v) { return v * mat3(camera.world_to_view) + camera.posi
 // `cell` in froxels, fractions included: the middle of the first one is 0.5.
 vec3 froxel_to_view(vec3 cell) { return froxel_ray(cell.xy / fog.count.xy) * slice_to_depth(cell.z, fog.count.z, fog.start, fog.ends); }
 
+// Where a froxel is looked at in this frame, world space.
+vec3 sample_of(ivec3 cell) { return view_to_world(froxel_to_view(vec3(cell) + 0.5 + fog.jitter)); }
+
 // Froxel of a lane within its cluster: four neighbours in depth lie in four neighbouring lanes.
 ivec3 froxel_of_lane(uvec3 cluster, uint lane) { return ivec3(cluster * uint(FOG_CLUSTER) + uvec3(lane >> 2 & 3u, lane >> 4, lane & 3u)); }
 uint cluster_index(uvec3 cluster, uvec3 clusters) { return (cluster.z * clusters.y + cluster.y) * clusters.x + cluster.x; }

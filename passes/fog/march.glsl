@@ -1,4 +1,4 @@
-// A stretch of even fog: what it scatters towards its near end, and the share of light from behind that comes through.
+// Needs froxel.glsl. A stretch of even fog: what it scatters towards its near end, and the share of light from behind that comes through.
 struct Stretch { vec3 light; float through; };
 
 // (1 - exp(-x)) / x, which loses its digits near 0.
@@ -11,3 +11,10 @@ Stretch make_stretch(vec3 inscatter, float extinction, float metres) {
 
 // `near` in front of `far`; associative.
 Stretch join(Stretch near, Stretch far) { return Stretch(near.light + near.through * far.light, near.through * far.through); }
+
+// Of a slice, seen along its column.
+Stretch slice_stretch(vec4 media, int slice, float slant) {
+  float begin = slice_to_depth(float(slice), fog.count.z, fog.start, fog.ends), end = slice_to_depth(float(slice + 1), fog.count.z, fog.start, fog.ends);
+  return make_stretch(media.rgb, media.a, (end - begin) * slant);
+}
+float column_slant(ivec2 column) { return length(froxel_ray((vec2(column) + 0.5) / fog.count.xy)); }

@@ -128,8 +128,8 @@ glm::dvec3 middle_of(const FrameData& data, int x, int y, int z) {
 TEST(FogClusters, HoldEveryLampAndBoxThatReachesAFroxel) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const auto lamps = lab.buffer<uint32_t>(data, pass::froxel_fog_cull, resource::froxel_fog_cluster_lights);
-  const auto boxes = lab.buffer<uint32_t>(data, pass::froxel_fog_cull, resource::froxel_fog_cluster_volumes);
+  const auto lamps = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_lights);
+  const auto boxes = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_volumes);
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
   const glm::ivec3 count(data.fog.count.x, data.fog.count.y, data.fog.count.z), clusters = (count + 3) / 4;
   uint32_t missing = 0, lit = 0, bits = 0;
@@ -156,7 +156,7 @@ TEST(FogClusters, HoldEveryLampAndBoxThatReachesAFroxel) {
 TEST(FogInject, IsTheSumOfHeightFogAndBoxes) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const Volume density = read(lab, data, pass::froxel_fog_inject, resource::froxel_fog_density);
+  const Volume density = read(lab, data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
   for_some_froxels(density.count, [&](int x, int y, int z) {
     const double expected = reference::fog_density(data.fog, volumes, middle_of(data, x, y, z));
@@ -169,8 +169,8 @@ TEST(FogInject, DoesNotDependOnTheOrderOfBoxes) {
   std::reverse(turned.fog.boxes.begin(), turned.fog.boxes.end());
   Lab other(turned, 160, 90);
   const FrameData data = misty_lab().prepare();
-  const Volume a = read(misty_lab(), data, pass::froxel_fog_inject, resource::froxel_fog_density);
-  const Volume b = read(other, other.prepare(), pass::froxel_fog_inject, resource::froxel_fog_density);
+  const Volume a = read(misty_lab(), data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
+  const Volume b = read(other, other.prepare(), pass::froxel_fog_chain_inject, resource::froxel_fog_density);
   for (size_t i = 0; i < a.texels.data.size(); ++i) ASSERT_NEAR(a.texels.data[i].x, b.texels.data[i].x, 1e-3f * a.texels.data[i].x);
 }
 
@@ -183,7 +183,7 @@ TEST(FogInject, MasksMoveAndComeBackAfterOnePeriod) {
   const auto density_at = [&](float time) {
     FrameData data = lab.prepare();
     data.view.time = time;
-    return read(lab, data, pass::froxel_fog_inject, resource::froxel_fog_density);
+    return read(lab, data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
   };
   const Volume start = density_at(0), between = density_at(1.3f), period = density_at(4);  // one repeat across, two along
   double moved = 0;
@@ -201,7 +201,7 @@ TEST(FogLight, IsWhatLampsSunAndSkyScatter) {
   FrameData data = lab.prepare();
   for (auto& column : data.view.world_to_sun.column) column.x = 100;  // everything lies beside the shadow map: nothing is in shadow
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
-  const Volume light = read(lab, data, pass::froxel_fog_light, resource::froxel_fog_memory);
+  const Volume light = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_memory);
   for_some_froxels(light.count, [&](int x, int y, int z) {
     const glm::dvec3 p = middle_of(data, x, y, z);
     const glm::dvec3 expected =
@@ -220,7 +220,7 @@ TEST(FogLight, TermsLeftOutAreTermsInTheDark) {
     if (!sky) data.view.ambient = {0, 0, 0};
     if (!lights)
       for (frame::Light& light : data.lights) light.color = {0, 0, 0};
-    return lab.image(data, pass::froxel_fog_light, resource::froxel_fog_memory).data;
+    return lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data;
   };
   const uint32_t all = frame::FOG_SUN | frame::FOG_LIGHTS | frame::FOG_AMBIENT;
   for (uint32_t terms = 0; terms < 8; ++terms) {
@@ -234,10 +234,10 @@ TEST(FogLight, TermsLeftOutAreTermsInTheDark) {
 TEST(FogIntegrate, IsTheSumInDoublePrecision) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const Volume inscatter = read(lab, data, pass::froxel_fog_light, resource::froxel_fog_inscatter);
-  const Volume extinction = read(lab, data, pass::froxel_fog_light, resource::froxel_fog_extinction);
-  const Volume light = read(lab, data, pass::froxel_fog_integrate, resource::scattered);
-  const Volume through = read(lab, data, pass::froxel_fog_integrate, resource::transmittance);
+  const Volume inscatter = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_inscatter);
+  const Volume extinction = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_extinction);
+  const Volume light = read(lab, data, pass::froxel_fog_chain_integrate, resource::scattered);
+  const Volume through = read(lab, data, pass::froxel_fog_chain_integrate, resource::transmittance);
   for (int y = 0; y < light.count.y; ++y)
     for (int x = 0; x < light.count.x; ++x) {
       std::vector<glm::dvec3> source;
@@ -268,8 +268,8 @@ TEST(FogIntegrate, EvenFogIsExponential) {
   scene.fog.albedo = {0.5f, 1, 0.75f};
   Lab lab(scene, 96, 64);
   const FrameData data = lab.prepare();
-  const Volume light = read(lab, data, pass::froxel_fog_integrate, resource::scattered);
-  const Volume through = read(lab, data, pass::froxel_fog_integrate, resource::transmittance);
+  const Volume light = read(lab, data, pass::froxel_fog_chain_integrate, resource::scattered);
+  const Volume through = read(lab, data, pass::froxel_fog_chain_integrate, resource::transmittance);
   for (int y = 0; y < light.count.y; ++y)
     for (int x = 0; x < light.count.x; ++x)
       for (int z = 0; z < light.count.z; ++z) {
@@ -287,8 +287,8 @@ TEST(FogIntegrate, NoFogIsNothing) {
   scene.sun.ambient = {0.5f, 0.25f, 1};
   Lab lab(scene, 96, 64);
   const FrameData data = lab.prepare();
-  for (const glm::vec4& t : lab.image(data, pass::froxel_fog_integrate, resource::transmittance).data) ASSERT_EQ(t.x, 1);
-  for (const glm::vec4& s : lab.image(data, pass::froxel_fog_integrate, resource::scattered).data) ASSERT_EQ(glm::vec3(s), glm::vec3(0));
+  for (const glm::vec4& t : lab.image(data, pass::froxel_fog_chain_integrate, resource::transmittance).data) ASSERT_EQ(t.x, 1);
+  for (const glm::vec4& s : lab.image(data, pass::froxel_fog_chain_integrate, resource::scattered).data) ASSERT_EQ(glm::vec3(s), glm::vec3(0));
 }
 
 // ---- time
@@ -302,7 +302,7 @@ std::vector<glm::vec4> memory_of(Lab& lab, uint32_t frames, float blend, const s
     data.fog.blend = i == 0 ? 1 : blend;
     if (i + 1 < frames) lab.render(data);
   }
-  return lab.image(data, pass::froxel_fog_light, resource::froxel_fog_memory).data;
+  return lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data;
 }
 
 double distance_between(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
@@ -349,7 +349,7 @@ TEST(FogHistory, SurvivesNewCascades) {
     data.fog.previous_ends = data.fog.ends;
     data.fog.ends = ends;
     data.fog.blend = 0.1f;
-    for (const glm::vec4& m : lab.image(data, pass::froxel_fog_light, resource::froxel_fog_memory).data) {
+    for (const glm::vec4& m : lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data) {
       ASSERT_NEAR(m.a, 0.125f, 2e-4f);
       ASSERT_NEAR(m.r, 0.0625f, 1e-4f);
     }
@@ -381,9 +381,9 @@ uint64_t volume_bytes(std::string_view name, uint64_t froxels) {
 // its other figures do not read; one write is enough here.
 TEST(FogBytes, AreThoseOfTheTalk) {
   const uint64_t froxels = 112 * 90 * 128, half = 2 * froxels;
-  EXPECT_EQ(volume_bytes("froxel_fog.inject", froxels), half);
-  EXPECT_EQ(volume_bytes("froxel_fog.light", froxels), 4 * half);
-  EXPECT_EQ(volume_bytes("froxel_fog.integrate", froxels), 6 * half);
+  EXPECT_EQ(volume_bytes("froxel_fog.chain.inject", froxels), half);
+  EXPECT_EQ(volume_bytes("froxel_fog.chain.light", froxels), 4 * half);
+  EXPECT_EQ(volume_bytes("froxel_fog.chain.integrate", froxels), 6 * half);
   const uint64_t chain = 11 * half, merged = 3 * half;
   EXPECT_NEAR(static_cast<double>(chain + half) / 1000, 30920, 60);
   EXPECT_NEAR(static_cast<double>(merged) / 1000, 7730, 15);

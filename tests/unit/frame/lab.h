@@ -61,7 +61,7 @@ Lab& plaza_lab();
 
 // What passes/culling/culling.rg calls TileRecord.
 struct Record {
-  uint32_t count = 0, overflow = 0, features = 0, spare = 0, light[64] = {};
+  uint32_t count = 0, overflow = 0, light[64] = {};
 };
 
 // Index of the tile of `size` pixels that holds (x, y).

@@ -245,11 +245,14 @@ TEST(TileRecords, HoldTheUnionOfTheirLampsFeatures) {
   uint32_t all = 0;
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     const FrameData data = lab.prepare(camera);
-    for (const Record& record : lab.buffer<Record>(data, pass::tile_cull, resource::tile_records)) {
-      uint32_t features = 0;
-      for (uint32_t i = 0; i < record.count; ++i) features |= data.lights[record.light[i]].features;
-      ASSERT_EQ(record.features, features);
-      all |= features;
+    const auto records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
+    const auto features = lab.buffer<uint32_t>(data, pass::tile_cull, resource::tile_features);
+    ASSERT_EQ(features.size(), records.size());
+    for (size_t tile = 0; tile < records.size(); ++tile) {
+      uint32_t expected = 0;
+      for (uint32_t i = 0; i < records[tile].count; ++i) expected |= data.lights[records[tile].light[i]].features;
+      ASSERT_EQ(features[tile], expected);
+      all |= expected;
     }
   }
   EXPECT_EQ(all, (1u << frame::LAMP_FEATURES) - 1) << "the plaza uses every feature";
