@@ -23,7 +23,7 @@ struct Unroller {
   Timeline out = {};
   uint32_t frame = 0, queue = 0;
   bool first_in_rendering = true, last_in_rendering = true;
-  uint32_t renderings = 0;  // begun
+  uint32_t renderings = 0;                          // begun
   std::vector<std::vector<uint32_t>> left_by = {};  // by program resource: events of the engine after the last frame
   struct Signalled {
     Index queue;
@@ -31,8 +31,8 @@ struct Unroller {
     uint64_t value;
     uint32_t event;
   };
-  std::vector<Signalled> signals = {};    // of all frames
-  std::vector<bool> begun = {};           // by program resource: used in this frame
+  std::vector<Signalled> signals = {};  // of all frames
+  std::vector<bool> begun = {};         // by program resource: used in this frame
 
   const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
   const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
@@ -157,7 +157,8 @@ struct Unroller {
       event.shares = commutes(access);
       event.rendering = attachment ? renderings : 0;
       event.lost = attachment && first_in_rendering && drops_before(source, access, *attachment);
-      if (attachment && touch.writes && last_in_rendering) event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
+      if (attachment && touch.writes && last_in_rendering)
+        event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
       event.expected = effects.empty() ? std::vector<Version>(cells.size()) : effects[number].before;
       event.result = effects.empty() ? std::vector<Version>(cells.size(), {version::poison, 0}) : effects[number].after;
       if (touch.partial) event.result.assign(cells.size(), {version::partial, 0});
@@ -257,7 +258,8 @@ struct Unroller {
     signals.push_back({queue, frame, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
   }
 
-  // Passes that follow each other with one rendering and no barrier between them are one rendering: it loads before the first and stores after the last.
+  // Passes that follow each other with one rendering and no barrier between them are one rendering: it loads before the first and stores after the
+  // last.
   bool same_rendering(const Batch& batch, Index step, Index other) const {
     if (other < batch.first_step || other >= batch.first_step + batch.step_count) return false;
     const Step &a = in.plan.steps[step], &b = in.plan.steps[other];
@@ -314,7 +316,7 @@ struct Unroller {
     }
     event.family = family(resource, named);
     if (event.stages == 0) event.stages = boundary_stages(resource);
-    event.before_all = event.before_all || event.stages == 0;  // nothing to wait for: the engine was done before
+    event.before_all = event.before_all || event.stages == 0;        // nothing to wait for: the engine was done before
     if (!row(resource).is_surface) event.after = left_by[resource];  // the next frame gets another image
     add(std::move(event));
     queue = 0;
@@ -332,7 +334,7 @@ struct Unroller {
     for (const Touch& touch : touches) {
       Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0),
                                 readback ? "the host" : "the engine");
-      event.family = family(resource, named);
+      event.family = readback ? kNone : family(resource, named);  // the host is of no family
       event.through_semaphore = present;
       event.after_all = present || readback;
       event.layout = boundary_layout(in.plan.exit, resource, after.role);
