@@ -21,14 +21,12 @@ Rows bench_planner(const std::string& graphs);
 Rows bench_front_end(const std::string& graphs);
 Rows bench_checker(const std::string& graphs);
 Rows bench_executor(const std::string& graphs);
+// Needs no graphs. RGC_PACKING may name a folder of packing problems.
+Rows bench_packing(const std::string& graphs);
 
 // Median of `runs` wall-clock times of `work`, in milliseconds; the first run warms up and is not counted.
 template <class Work>
 double median_ms(int runs, Work work);
-
-// Wall-clock time of one run that nothing warms up, in milliseconds: for work of seconds.
-template <class Work>
-double once_ms(Work work);
 
 }  // namespace rg::bench
 
@@ -46,11 +44,4 @@ double rg::bench::median_ms(int runs, Work work) {
   }
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
-}
-
-template <class Work>
-double rg::bench::once_ms(Work work) {
-  const auto begin = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }

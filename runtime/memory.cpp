@@ -88,7 +88,7 @@ VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& ite
   for (uint32_t a = 0; a < items.size(); ++a)
     for (uint32_t b = a + 1; b < items.size(); ++b)
       if (!allowed.may_share(items[a]->resource, items[b]->resource)) conflicts.emplace_back(a, b);
-  const packing::Placement placement = packing::pack(packing_items(context.plan, items), conflicts);
+  const packing::Placement placement = packing::pack(packing_items(context.plan, items), conflicts, packing::kPlacementEffort);
   for (size_t i = 0; i < items.size(); ++i) items[i]->offset = placement.offsets[i];
   lower_bound = placement.lower_bound_bytes;
   return placement.heap_bytes;

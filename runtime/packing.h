@@ -7,139 +7,31 @@
 //     |   | a |   |   |       and then the placement is proven to be optimal.
 //     +---+---+---+---+--> time
 //
-// Method (measured against every published planner we know of): decode "lowest offset first": always place the item whose lowest legal offset
-// is smallest, ties by a static order; eight orders; then first and best fit by size, life and area; then swaps of ranks under a budget. Every stage
-// stops at the lower bound. Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
+// Method, stage by stage, each ending it all at the lower bound:
+//   1. decode "lowest offset first": always place the item whose lowest legal offset is smallest, ties by a static order; eight orders
+//   2. first and best fit by size, life and area
+//   3. swaps of ranks in the best order, for a share of the effort
+//   4. exact search (packing_search.h) at the bound and at capacities between it and the best, for the rest of the effort
+// Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
 //
 // Header only, standard library only: compiler and runtime place with the same code.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <numeric>
-#include <span>
-#include <utility>
-#include <vector>
+#include <functional>
+
+#include "runtime/packing_search.h"
+#include "runtime/packing_values.h"
 
 namespace rg::packing {
 
-struct Item {
-  uint64_t bytes = 0;
-  uint64_t alignment = 1;       // any positive number
-  uint32_t begin = 0, end = 1;  // half-open life; begin < end
-};
-using Conflict = std::pair<uint32_t, uint32_t>;  // two items that must not share bytes, in any order
-
-struct Placement {
-  std::vector<uint64_t> offsets;  // by item
-  uint64_t heap_bytes = 0, lower_bound_bytes = 0;
-};
-
 // Conflicts looked at in all; about 10 ns each. Stages that always run may exceed it.
 inline constexpr uint64_t kDefaultEffort = 2'000'000;
+// About a millisecond: for placing again while a frame waits, at creation and resize.
+inline constexpr uint64_t kPlacementEffort = 100'000;
+// Swapping ranks for longer hardly helps; the exact search uses the rest better.
+inline constexpr uint64_t kMostSwapEffort = 10'000'000;
 
 namespace detail {
-
-// Items that conflict with each item, as flat lists.
-struct Neighbours {
-  std::vector<size_t> first;
-  std::vector<uint32_t> items;
-  std::span<const uint32_t> of(uint32_t item) const { return {items.data() + first[item], first[item + 1] - first[item]}; }
-};
-
-inline Neighbours neighbours(size_t count, const std::vector<Conflict>& conflicts) {
-  Neighbours result;
-  result.first.assign(count + 1, 0);
-  for (const auto& [a, b] : conflicts) ++result.first[a + 1], ++result.first[b + 1];
-  for (size_t i = 0; i < count; ++i) result.first[i + 1] += result.first[i];
-  result.items.resize(conflicts.size() * 2);
-  std::vector<size_t> next(result.first.begin(), result.first.end() - 1);
-  for (const auto& [a, b] : conflicts) result.items[next[a]++] = b, result.items[next[b]++] = a;
-  return result;
-}
-
-// Items by begin, and visits each pair whose lives meet until `visit` gives false. O(n log n + pairs).
-template <class Visit>
-bool for_each_meeting_pair(std::span<const Item> items, Visit visit) {
-  std::vector<uint32_t> by_begin(items.size());
-  std::iota(by_begin.begin(), by_begin.end(), 0u);
-  std::stable_sort(by_begin.begin(), by_begin.end(), [&](uint32_t a, uint32_t b) { return items[a].begin < items[b].begin; });
-  std::vector<uint32_t> alive;
-  for (const uint32_t item : by_begin) {
-    std::erase_if(alive, [&](uint32_t other) { return items[other].end <= items[item].begin; });
-    for (const uint32_t other : alive)
-      if (!visit(other, item)) return false;
-    alive.push_back(item);
-  }
-  return true;
-}
-
-// Beyond this many pairs the conflict lists cost more than they are worth; see Skyline.
-inline constexpr size_t kMostPairs = 4'000'000;
-
-inline uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
-
-// Live bytes at each distinct time, for bounds and orders.
-struct Load {
-  std::vector<uint32_t> times;  // sorted begins and ends
-  std::vector<uint64_t> live;   // in [times[i], times[i + 1])
-  uint64_t peak = 0;
-  size_t at(uint32_t time) const { return static_cast<size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin()); }
-};
-inline Load load_of(std::span<const Item> items) {
-  Load load;
-  for (const Item& item : items) load.times.insert(load.times.end(), {item.begin, item.end});
-  std::sort(load.times.begin(), load.times.end());
-  load.times.erase(std::unique(load.times.begin(), load.times.end()), load.times.end());
-  std::vector<int64_t> change(load.times.size() + 1);
-  for (const Item& item : items)
-    change[load.at(item.begin)] += static_cast<int64_t>(item.bytes), change[load.at(item.end)] -= static_cast<int64_t>(item.bytes);
-  int64_t now = 0;
-  for (size_t i = 0; i < load.times.size(); ++i) {
-    now += change[i];
-    load.live.push_back(static_cast<uint64_t>(now));
-    load.peak = std::max(load.peak, static_cast<uint64_t>(now));
-  }
-  return load;
-}
-
-// Greatest live sum over each item's life: T. A sparse table answers in O(1) after O(m log m).
-inline std::vector<uint64_t> greatest_load(std::span<const Item> items, const Load& load) {
-  std::vector<std::vector<uint64_t>> table{load.live};
-  for (size_t width = 1; 2 * width <= load.live.size(); width *= 2) {
-    const std::vector<uint64_t>& last = table.back();
-    std::vector<uint64_t> next(last.size() - width);
-    for (size_t i = 0; i < next.size(); ++i) next[i] = std::max(last[i], last[i + width]);
-    table.push_back(std::move(next));
-  }
-  std::vector<uint64_t> result;
-  for (const Item& item : items) {
-    const size_t begin = load.at(item.begin), end = load.at(item.end);
-    size_t level = 0;
-    while (size_t{2} << level <= end - begin) ++level;
-    result.push_back(std::max(table[level][begin], table[level][end - (size_t{1} << level)]));
-  }
-  return result;
-}
-
-struct Measures {
-  std::vector<uint64_t> load, size, width, area;  // T, Z, W, A
-};
-using Order = std::vector<uint32_t>;
-
-// Items by the named measures, greatest first, then by index.
-inline Order sorted(size_t count, std::initializer_list<const std::vector<uint64_t>*> keys) {
-  Order order(count);
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-    for (const auto* key : keys)
-      if ((*key)[a] != (*key)[b]) return (*key)[a] > (*key)[b];
-    return false;
-  });
-  return order;
-}
 
 // Heights over time, for crowds: each item lies on the highest of what lives with it. O(log n) an item, whatever the number of pairs.
 class Skyline {
@@ -173,23 +65,56 @@ class Skyline {
   std::vector<uint64_t> height_, assigned_;
 };
 
+// Both decodes of crowds do without conflict lists. In the order given, each item on the highest of what lives with it:
+inline Placement stack_crowd(std::span<const Item> items, const Load& load, const Order& order) {
+  Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
+  Skyline skyline(load.times.size());
+  for (const uint32_t i : order) {
+    const size_t begin = load.at(items[i].begin), end = load.at(items[i].end);
+    placement.offsets[i] = align_up(skyline.highest(begin, end), items[i].alignment);
+    skyline.raise(begin, end, placement.offsets[i] + items[i].bytes);
+    placement.heap_bytes = std::max(placement.heap_bytes, placement.offsets[i] + items[i].bytes);
+  }
+  return placement;
+}
+
+// Lowest offset first. Offsets only rise, so an item is looked at again only when it is the lowest by what was known; gives nothing where items would
+// be looked at more than `looks` times in all, as they are where everything lives together.
+inline Placement decode_crowd(std::span<const Item> items, const Load& load, const Order& order, size_t looks) {
+  Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
+  Skyline skyline(load.times.size());
+  std::vector<std::pair<uint64_t, uint32_t>> heap;  // offset, rank
+  for (uint32_t rank = 0; rank < order.size(); ++rank) heap.emplace_back(0, rank);
+  for (; !heap.empty() && looks > 0; --looks) {
+    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
+    const uint32_t item = order[heap.back().second];
+    const size_t begin = load.at(items[item].begin), end = load.at(items[item].end);
+    const uint64_t offset = align_up(skyline.highest(begin, end), items[item].alignment);
+    if (offset != heap.back().first) {
+      heap.back().first = offset;
+      std::push_heap(heap.begin(), heap.end(), std::greater<>());
+      continue;
+    }
+    heap.pop_back();
+    skyline.raise(begin, end, offset + items[item].bytes);
+    placement.offsets[item] = offset;
+    placement.heap_bytes = std::max(placement.heap_bytes, offset + items[item].bytes);
+  }
+  if (!heap.empty()) placement.heap_bytes = std::numeric_limits<uint64_t>::max();
+  return placement;
+}
+
 inline Placement pack_crowd(std::span<const Item> items) {
   const Load load = load_of(items);
-  const std::vector<uint64_t> greatest = greatest_load(items, load);
-  std::vector<uint64_t> area, early;
-  for (const Item& item : items)
-    area.push_back(item.bytes * (item.end - item.begin)), early.push_back(std::numeric_limits<uint32_t>::max() - item.begin);
+  const auto [T, Z, W, A] = measures_of(items);
+  const size_t n = items.size();
   Placement best{{}, std::numeric_limits<uint64_t>::max(), load.peak};
-  for (const Order& order : {sorted(items.size(), {&greatest, &area}), sorted(items.size(), {&early, &area}), sorted(items.size(), {&area})}) {
-    Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
-    Skyline skyline(load.times.size());
-    for (const uint32_t i : order) {
-      const size_t begin = load.at(items[i].begin), end = load.at(items[i].end);
-      placement.offsets[i] = align_up(skyline.highest(begin, end), items[i].alignment);
-      skyline.raise(begin, end, placement.offsets[i] + items[i].bytes);
-      placement.heap_bytes = std::max(placement.heap_bytes, placement.offsets[i] + items[i].bytes);
-    }
+  const auto keep = [&](Placement placement) {
     if (placement.heap_bytes < best.heap_bytes) best = std::move(placement);
+  };
+  for (const Order& order : {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}), sorted(n, {&W, &A, &T})}) {
+    if (best.heap_bytes > load.peak) keep(stack_crowd(items, load, order));
+    if (best.heap_bytes > load.peak) keep(decode_crowd(items, load, order, 256 * n));
   }
   return best;
 }
@@ -204,9 +129,8 @@ class Packer {
 
   Placement run() {
     if (items_.empty()) return {{}, 0, bound_};
-    const Measures m = measure();
     const size_t n = items_.size();
-    const auto& [T, Z, W, A] = m;
+    const auto [T, Z, W, A] = measures_of(items_);
     const Order skyline[] = {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}), sorted(n, {&Z}),
                              sorted(n, {&W, &A, &T}), sorted(n, {&T, &Z}),     sorted(n, {&W}), sorted(n, {&Z, &W})};
     for (const Order& order : skyline) {
@@ -223,18 +147,6 @@ class Packer {
 
  private:
   bool done() const { return best_.heap_bytes <= bound_; }
-
-  Measures measure() const {
-    const Load load = load_of(items_);
-    Measures m;
-    m.load = greatest_load(items_, load);
-    for (const Item& item : items_) {
-      m.size.push_back(item.bytes);
-      m.width.push_back(item.end - item.begin);
-      m.area.push_back(item.bytes * (item.end - item.begin));
-    }
-    return m;
-  }
 
   bool keep(const std::vector<uint64_t>& offsets, uint64_t heap) {
     if (heap >= best_.heap_bytes) return false;
@@ -338,6 +250,70 @@ class Packer {
   std::vector<std::pair<uint64_t, uint64_t>> taken_;
 };
 
+// Restarted exact search at one capacity: every order plain and with favoured failures, in turn, with growing limits.
+class Fitting {
+ public:
+  Fitting(std::span<const Item> items, uint64_t capacity) : search_(2, Search(items, capacity)), orders_(search_orders(items)) {}
+
+  Search::Answer run(uint64_t effort) {
+    const uint64_t round = 250 * (orders_.front().size() + 50);
+    for (uint64_t plain = round, weighted = round / 2;; plain *= 2, weighted += weighted / 4) {
+      for (const bool favour : {true, false}) {
+        for (const Order& order : orders_) {
+          if (work_ >= effort) return Search::Answer::gave_up;
+          const Search::Answer answer = search_[favour].run(order, favour, std::min(favour ? weighted : plain, effort - work_));
+          work_ += search_[favour].work() + 1;
+          if (answer == Search::Answer::fits) offsets_ = search_[favour].offsets();
+          if (answer != Search::Answer::gave_up) return answer;
+        }
+      }
+    }
+  }
+  uint64_t work() const { return work_; }
+  std::vector<uint64_t>& offsets() { return offsets_; }
+
+ private:
+  // By load, conflicts, life and area: none is best everywhere.
+  static std::vector<Order> search_orders(std::span<const Item> items) {
+    const auto [T, Z, W, A] = measures_of(items);
+    std::vector<uint64_t> meets(items.size());
+    for_each_meeting_pair(items, [&](uint32_t a, uint32_t b) { return ++meets[a], ++meets[b], true; });
+    const size_t n = items.size();
+    return {sorted(n, {&T, &meets}), sorted(n, {&W, &A, &T}), sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A})};
+  }
+
+  std::vector<Search> search_;  // plain; with weights
+  std::vector<Order> orders_;
+  std::vector<uint64_t> offsets_;
+  uint64_t work_ = 0;
+};
+
+inline uint64_t top_of(std::span<const Item> items, const std::vector<uint64_t>& offsets) {
+  uint64_t top = 0;
+  for (size_t i = 0; i < items.size(); ++i) top = std::max(top, offsets[i] + items[i].bytes);
+  return top;
+}
+
+// Beyond this many items a node of the exact search costs too much.
+inline constexpr size_t kMostSearched = 2000;
+
+// Looks for a placement below `best`. Less room is not always harder to search, because bounds then cut more: so the bound itself is tried first and
+// the room between in several steps, again and again with more effort.
+inline void search_below(std::span<const Item> items, Placement& best, uint64_t effort) {
+  uint64_t spent = 0, least = best.lower_bound_bytes;  // nothing below `least` is possible
+  for (uint64_t share = std::max<uint64_t>(effort / 32, 1);; share *= 2) {
+    for (const uint64_t sixteenths : {0, 4, 8, 12, 15}) {
+      if (spent >= effort || best.heap_bytes <= least) return;
+      const uint64_t capacity = least + (best.heap_bytes - least - 1) / 16 * sixteenths;
+      Fitting fitting(items, capacity);
+      const Search::Answer answer = fitting.run(std::min(share, effort - spent));
+      spent += fitting.work() + items.size();
+      if (answer == Search::Answer::does_not_fit) least = capacity + 1;
+      if (answer == Search::Answer::fits) best.offsets = std::move(fitting.offsets()), best.heap_bytes = top_of(items, best.offsets);
+    }
+  }
+}
+
 }  // namespace detail
 
 // Greatest sum of bytes that live at one time. O(n log n).
@@ -351,7 +327,25 @@ inline Placement pack(std::span<const Item> items, uint64_t effort = kDefaultEff
     return pairs.size() < detail::kMostPairs;
   });
   if (!listed) return detail::pack_crowd(items);
-  return detail::Packer(items, pairs, lower_bound(items), effort).run();
+  const bool searched = items.size() <= detail::kMostSearched;
+  const uint64_t swaps = searched ? std::min(effort / 2, kMostSwapEffort) : effort;
+  Placement best = detail::Packer(items, pairs, lower_bound(items), swaps).run();
+  if (searched) detail::search_below(items, best, effort - swaps);
+  return best;
+}
+
+// A placement of `capacity` bytes at most. `proven`: there is none if the placement is empty; else the effort ran out.
+struct Fit {
+  Placement placement;
+  bool fits = false, proven = false;
+};
+inline Fit fit(std::span<const Item> items, uint64_t capacity, uint64_t effort) {
+  const uint64_t bound = lower_bound(items);
+  if (items.empty() || bound > capacity) return {{{}, 0, bound}, items.empty(), true};
+  detail::Fitting fitting(items, capacity);
+  const auto answer = fitting.run(effort);
+  if (answer != detail::Search::Answer::fits) return {{{}, 0, bound}, false, answer == detail::Search::Answer::does_not_fit};
+  return {{fitting.offsets(), detail::top_of(items, fitting.offsets()), bound}, true, true};
 }
 
 // Items conflict where `conflicts` says so, whatever their lives, which then serve as hints. Every pair whose lives meet should be among them:

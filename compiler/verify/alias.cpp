@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+
 namespace rg::verify {
 namespace {
 

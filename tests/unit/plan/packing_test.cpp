@@ -136,5 +136,49 @@ TEST(Packing, ManyItemsAtOnceAreStacked) {
   EXPECT_EQ(placement.heap_bytes, placement.lower_bound_bytes);
 }
 
+// The exact search finds every optimum and refutes one byte less.
+TEST(Packing, FitFindsTheOptimumAndProvesThatNothingIsBetter) {
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    const std::vector<Item> items = random_items(seed, 3 + seed % 5, 6, 8, {1, 2});
+    const uint64_t optimum = brute_force(items);
+    const Fit found = fit(items, optimum, 1'000'000);
+    ASSERT_TRUE(found.fits) << "seed " << seed;
+    ASSERT_EQ(find_fault(items, found.placement), std::nullopt) << "seed " << seed;
+    ASSERT_LE(found.placement.heap_bytes, optimum) << "seed " << seed;
+    const Fit refused = fit(items, optimum - 1, 1'000'000);
+    ASSERT_FALSE(refused.fits) << "seed " << seed;
+    ASSERT_TRUE(refused.proven) << "seed " << seed;
+  }
+}
+
+// A rectangle cut across and along until there are `count` pieces: they fit together again, without a gap.
+std::vector<Item> cut_rectangle(uint32_t seed, size_t count) {
+  std::mt19937 random(seed);
+  std::vector<Item> pieces = {{1 << 20, 1, 0, 1 << 12}};
+  while (pieces.size() < count) {
+    Item& piece = pieces[random() % pieces.size()];
+    Item other = piece;
+    if (random() % 2 == 0 && piece.bytes > 1) {
+      other.bytes = 1 + random() % (piece.bytes - 1);
+      piece.bytes -= other.bytes;
+    } else if (piece.end - piece.begin > 1) {
+      other.end = piece.end, piece.end = other.begin = piece.begin + 1 + random() % (piece.end - piece.begin - 1);
+    } else {
+      continue;
+    }
+    pieces.push_back(other);
+  }
+  return pieces;
+}
+
+TEST(Packing, PiecesOfARectangleFitTogetherAgain) {
+  for (uint32_t seed = 0; seed < 10; ++seed) {
+    const std::vector<Item> pieces = cut_rectangle(seed, 30);
+    const Fit found = fit(pieces, 1 << 20, 50'000'000);
+    ASSERT_TRUE(found.fits) << "seed " << seed;
+    ASSERT_EQ(find_fault(pieces, found.placement), std::nullopt) << "seed " << seed;
+  }
+}
+
 }  // namespace
 }  // namespace rg::packing

@@ -423,7 +423,10 @@ const Litmus kCases[] = {
        b.transfer("c", {reads(x, Role::copy_src), writes(y, Role::copy_dst)});
        b.signal(kAll);
      }},
-    {"OwnershipTransferred", "Queue Family Ownership Transfer: release, semaphore, acquire", {}, [](Builder& b) { moved_image(b); }},
+    {"OwnershipTransferred",
+     "Queue Family Ownership Transfer: release, semaphore, acquire",
+     {},
+     [](Builder& b) { moved_image(b); }},
     {"TransferOfBuffer",
      "Queue Family Ownership Transfer: buffers alike",
      {},
