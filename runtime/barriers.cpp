@@ -83,6 +83,22 @@ uint32_t group_period(const Context& context, const Sized& sized, const BarrierG
   return period;
 }
 
+// Where a transfer is none, its acquire relies on a wait for the release's queue. The validation layer loses the writes before such a wait when the next
+// thing is a transition: while it watches, the acquire names them once more.
+template <class Barriers, class Same>
+void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelineStageFlags2& stages, VkAccessFlags2& accesses) {
+  for (const auto& other : all) {
+    if (other.src_queue != queue || !same(other) || other.src_accesses == 0) continue;
+    stages |= other.src_stages, accesses |= other.src_accesses;
+  }
+}
+void repeat_release(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
+  if (!context.device.validating || in.src_queue == kNone || context.queues.of_group[group] == in.src_queue) return;
+  if (changes_family(context, in.src_queue, in.dst_queue)) return;
+  auto same = [&](const ImageBarrier& other) { return other.image == in.image && other.range == in.range && other.dst_queue == in.dst_queue; };
+  name_released_writes(context.plan.image_barriers, in.src_queue, same, out.srcStageMask, out.srcAccessMask);
+}
+
 // What the placement adds to the plan's barriers; see alias.h.
 struct Patches {
   struct Scope {
@@ -113,6 +129,7 @@ void add_images(const Context& context, const Sized& sized, Index index, const P
     VkImageMemoryBarrier2& out = table.images.emplace_back(translate(context, barrier, image, range));
     out.srcStageMask |= patches.images[i].stages;
     out.srcAccessMask |= patches.images[i].accesses;
+    repeat_release(context, index, barrier, out);
   }
 }
 

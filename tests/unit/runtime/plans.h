@@ -163,7 +163,7 @@ inline Relay relay() {
   Transfer clear;
   clear.kind = TransferKind::clear_color, clear.dst = {t.picture, 0}, clear.value = {{0x40400000, 0, 0, 0}};
   p.transfer("clear", {clear}, {touches({t.picture, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
-  ImageBarrier handed = transition(t.picture, stage::clear, access::transfer_write, Layout::transfer_dst, 0, 0, Layout::transfer_src);
+  ImageBarrier handed = transition(t.picture, stage::clear, access::transfer_write, Layout::transfer_dst, stage::clear, 0, Layout::transfer_src);
   handed.src_queue = compute, handed.dst_queue = graphics;
   p.barriers({handed});
   p.end_batch(compute, {{transfer, 1, stage::compute_shader}, {graphics, 1, stage::compute_shader | stage::clear, 1}}, stage::all_commands);

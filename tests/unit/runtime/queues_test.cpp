@@ -67,7 +67,7 @@ TEST(Queues, FamiliesHandOverWhatTheyDoNotShare) {
   test::Relay t = test::relay();
   const Frames frames = run(t.plan.view(), queues(1, 1));
   ASSERT_EQ(frames.barriers.size(), 4u);
-  EXPECT_NE(frames.barriers[1].find("0x800000000/0x1000->0x0/0x0 layout 7->6 aspects 1 mips 0+1 layers 0+1 family 1->0"), std::string::npos);
+  EXPECT_NE(frames.barriers[1].find("0x800000000/0x1000->0x800000000/0x0 layout 7->6 aspects 1 mips 0+1 layers 0+1 family 1->0"), std::string::npos);
   EXPECT_NE(frames.barriers[2].find("0x100000000/0x0->0x100000000/0x800 layout 7->6 aspects 1 mips 0+1 layers 0+1 family 1->0"), std::string::npos);
   EXPECT_EQ(test::calls(frames.log, "vkCreateBuffer bytes 256 usage 0x22 shared").size(), 1u);
   for (const std::string& line : test::calls(frames.log, "vkCreateImage ")) EXPECT_EQ(line.find("shared"), std::string::npos);
