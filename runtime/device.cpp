@@ -24,6 +24,10 @@ Device::State::~State() {
 }
 
 const DeviceFunctions& Device::vk() const { return state_->vk; }
+VkInstance Device::instance() const { return state_->instance; }
+PFN_vkVoidFunction Device::instance_function(const char* name) const {
+  return state_->get_instance_proc_addr == nullptr ? nullptr : state_->get_instance_proc_addr(state_->instance, name);
+}
 VkDevice Device::handle() const { return state_->device; }
 VkPhysicalDevice Device::physical() const { return state_->physical; }
 VkQueue Device::queue() const { return state_->queues[0].handle; }
@@ -91,6 +95,7 @@ Result<Device> Device::adopt(const ExternalDevice& external) {
     return Error{ErrorCode::invalid_argument, "an external device needs a VkDevice, a VkQueue and vkGetInstanceProcAddr"};
   auto state = std::make_unique<State>();
   state->instance = external.instance;
+  state->get_instance_proc_addr = external.get_instance_proc_addr;
   state->physical = external.physical_device;
   state->device = external.device;
   add_queue(*state, {external.queue, external.queue_family, external.queue_mutex});

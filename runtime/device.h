@@ -82,6 +82,9 @@ class Device {
   ~Device();
 
   const DeviceFunctions& vk() const;
+  VkInstance instance() const;
+  // Any function of the instance by name, for extensions that the runtime does not use (surfaces, say); null: there is none.
+  PFN_vkVoidFunction instance_function(const char* name) const;
   VkDevice handle() const;
   VkPhysicalDevice physical() const;
   VkQueue queue() const;  // does graphics and compute

@@ -36,6 +36,7 @@ struct Device::State {
 
   DeviceFunctions vk;
   void* library = nullptr;
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
   VkInstance instance = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
   VkPhysicalDevice physical = VK_NULL_HANDLE;

@@ -81,21 +81,86 @@ Status run_one_by_one(GraphInstance::State& state, FrameSlot& slot) {
 
 }  // namespace
 
-Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
+namespace {
+
+// Everything before recording, the wait for the slot included.
+Status begin_frame(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot) {
   RG_TRY(check_inputs(state, inputs));
-  FrameSlot& slot = state.slots[state.frame % state.slots.size()];
-  RG_TRY(wait_for_slot(state, slot));
+  RG_TRY(wait_for(state, slot.done));
   if (!state.retired.empty()) release_retired(state);
   RG_TRY(reset_slot(state, slot));
   RG_TRY(take_inputs(state, inputs));
-  if (state.context.device.classic_render_passes) RG_TRY(update_framebuffers(state.context, *state.sized, state.frame));
-  RG_TRY(record_frame(state, inputs, slot));
-  slot.engine_done = VK_NULL_HANDLE;
-  slot.done = {};  // waited for: if the submit fails there is nothing to wait for
-  RG_TRY(state.context.submit_per_pass ? run_one_by_one(state, slot) : submit_frame(state, inputs, slot));
+  return state.context.device.classic_render_passes ? update_framebuffers(state.context, *state.sized, state.frame) : Status(Done{});
+}
+
+void end_frame(GraphInstance::State& state, FrameSlot& slot) {
   slot.done = state.submitted;
   slot.frame = state.frame++;
   if (state.dump.pass != kNone && !state.dump.recorded) state.dump.recorded = true, state.dump.done = state.submitted;
+}
+
+}  // namespace
+
+Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
+  FrameSlot& slot = state.slots[state.frame % state.slots.size()];
+  RG_TRY(begin_frame(state, inputs, slot));
+  RG_TRY(record_frame(state, inputs, slot));
+  slot.done = {};  // waited for: if the submit fails there is nothing to wait for
+  RG_TRY(state.context.submit_per_pass ? run_one_by_one(state, slot) : submit_frame(state, inputs, slot));
+  end_frame(state, slot);
+  return Done{};
+}
+
+namespace {
+
+// Walks the steps of all batches in listed order over the engine's command buffers. Where a batch would wait for others, a barrier stands in.
+class OwnRecorder {
+ public:
+  OwnRecorder(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, std::span<const OwnCommands> parts)
+      : state_(state), inputs_(inputs), slot_(slot), parts_(parts), recording_(start(0)) {
+    reset_queries(recording_);
+  }
+
+  void batch(const Batch& batch) {
+    if (batch.wait_count != 0) wait_for_all(recording_);
+    for (const Step& step : state_.context.plan.steps.subspan(batch.first_step, batch.step_count)) {
+      record_step(recording_, step);
+      if (step.kind == StepKind::pass && part_ + 1 < parts_.size() && parts_[part_].last_pass == step.index) next();
+    }
+  }
+  // False: a pass that ends a part never came.
+  bool finish() {
+    close_module(recording_);
+    return part_ + 1 == parts_.size();
+  }
+
+ private:
+  FrameRecording start(size_t part) const { return start_recording(state_, inputs_, slot_, parts_[part].commands, state_.context.plan.batches[0].queue); }
+  void next() {
+    close_module(recording_);
+    FrameRecording following = start(++part_);
+    recording_.commands = following.commands;
+  }
+
+  GraphInstance::State& state_;
+  const FrameInputs& inputs_;
+  const FrameSlot& slot_;
+  std::span<const OwnCommands> parts_;
+  size_t part_ = 0;
+  FrameRecording recording_;
+};
+
+}  // namespace
+
+Status record_own_frame(GraphInstance::State& state, const FrameInputs& inputs, std::span<const OwnCommands> parts, const FrameDone& done) {
+  FrameSlot& slot = state.slots[state.frame % state.slots.size()];
+  RG_TRY(begin_frame(state, inputs, slot));
+  OwnRecorder recorder(state, inputs, slot, parts);
+  for (const Batch& batch : state.context.plan.batches) recorder.batch(batch);
+  if (!recorder.finish()) return Error{ErrorCode::invalid_argument, "own commands: their last passes are not in the order in which passes are recorded"};
+  state.submitted.engine = done.timeline;
+  state.submitted.engine_value = done.value;
+  end_frame(state, slot);
   return Done{};
 }
 

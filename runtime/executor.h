@@ -7,4 +7,6 @@ namespace rg {
 
 Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs);
 
+Status record_own_frame(GraphInstance::State& state, const FrameInputs& inputs, std::span<const OwnCommands> parts, const FrameDone& done);
+
 }  // namespace rg

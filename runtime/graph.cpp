@@ -26,7 +26,6 @@ GraphInstance::~GraphInstance() = default;
 GraphInstance::State::~State() {
   if (context.device.lost) return;  // nothing is in flight
   static_cast<void>(wait_for(*this, submitted));
-  for (const FrameSlot& slot : slots) static_cast<void>(wait_for_slot(*this, slot));
 }
 
 namespace {
@@ -159,7 +158,12 @@ Status mend(GraphInstance::State& state) {
 
 Status mend_and_execute(GraphInstance::State& state, const FrameInputs& inputs) {
   RG_TRY(mend(state));
-  return execute_frame(state, inputs);
+  if (state.own_commands.empty()) return execute_frame(state, inputs);
+  if (!inputs.waits.empty() || !inputs.signals.empty())
+    return Error{ErrorCode::invalid_argument, "who submits a frame's commands waits for semaphores and signals them there"};
+  const Status recorded = record_own_frame(state, inputs, state.own_commands, state.own_done);
+  state.own_commands.clear();
+  return recorded;
 }
 
 Status mend_and_resize(GraphInstance::State& state, std::span<const int64_t> extents) {
@@ -176,16 +180,69 @@ Status GraphInstance::resize(std::span<const int64_t> extents) {
   return device.lost ? Status(lost()) : guarded(device, mend_and_resize(*state_, extents));
 }
 
+namespace {
+
+// A mended instance or a failed frame may be tried again with the same semaphores.
+Status execute_with_semaphores(GraphInstance::State& state, const FrameInputs& inputs) {
+  if (state.waits.empty() && state.signals.empty()) return mend_and_execute(state, inputs);
+  std::array<SemaphoreUse, 2 * kMaxExternalSemaphores> waits, signals;
+  auto join = [](const std::vector<SemaphoreUse>& ours, std::span<const SemaphoreUse> given, auto& out) {
+    const size_t count = std::min(out.size(), ours.size() + given.size());
+    std::copy(ours.begin(), ours.end(), out.begin());
+    std::copy_n(given.begin(), count - ours.size(), out.begin() + static_cast<ptrdiff_t>(ours.size()));
+    return std::span<const SemaphoreUse>(out.data(), count);
+  };
+  FrameInputs joined = inputs;
+  joined.waits = join(state.waits, inputs.waits, waits);
+  joined.signals = join(state.signals, inputs.signals, signals);
+  RG_TRY(mend_and_execute(state, joined));
+  state.waits.clear(), state.signals.clear();
+  return Done{};
+}
+
+}  // namespace
+
 Status GraphInstance::execute(const FrameInputs& inputs) {
   Device::State& device = state_->context.device;
-  return device.lost ? Status(lost()) : guarded(device, mend_and_execute(*state_, inputs));
+  return device.lost ? Status(lost()) : guarded(device, execute_with_semaphores(*state_, inputs));
+}
+
+namespace {
+
+// What cannot be recorded into an engine's command buffers.
+Status check_own_commands(const GraphInstance::State& state, std::span<const OwnCommands> parts, const FrameDone& done) {
+  auto wrong = [&](std::string text) { return Error{ErrorCode::invalid_argument, "graph `" + std::string(state.context.plan.name) + "`: " + text}; };
+  if (state.context.queues.several) return wrong("plans of several queues are recorded into own commands with GraphOptions::single_queue");
+  if (state.context.submit_per_pass) return wrong("submit_per_pass submits; own commands do not");
+  if (parts.empty() || parts.size() > kMaxOwnCommands || done.timeline == VK_NULL_HANDLE)
+    return wrong("own commands need 1 to " + std::to_string(kMaxOwnCommands) + " command buffers and a timeline semaphore");
+  for (const OwnCommands& part : parts)
+    if (part.commands == VK_NULL_HANDLE || (part.last_pass != kNone && part.last_pass >= state.context.plan.passes.size()))
+      return wrong("own commands without a command buffer, or up to a pass that does not exist");
+  return Done{};
+}
+
+}  // namespace
+
+Status GraphInstance::use_commands(std::span<const OwnCommands> parts, const FrameDone& done) {
+  RG_TRY(check_own_commands(*state_, parts, done));
+  state_->own_commands.assign(parts.begin(), parts.end());
+  state_->own_done = done;
+  return Done{};
+}
+
+Status GraphInstance::use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals) {
+  if (state_->waits.size() + waits.size() > kMaxExternalSemaphores || state_->signals.size() + signals.size() > kMaxExternalSemaphores)
+    return Error{ErrorCode::invalid_argument, "a frame waits for and signals at most " + std::to_string(kMaxExternalSemaphores) + " semaphores each"};
+  state_->waits.insert(state_->waits.end(), waits.begin(), waits.end());
+  state_->signals.insert(state_->signals.end(), signals.begin(), signals.end());
+  return Done{};
 }
 
 Status GraphInstance::wait_idle() {
   Device::State& device = state_->context.device;
   if (device.lost) return lost();
   RG_TRY(guarded(device, wait_for(*state_, state_->submitted)));
-  for (const FrameSlot& slot : state_->slots) RG_TRY(guarded(device, wait_for_slot(*state_, slot)));
   release_retired(*state_);
   return Done{};
 }

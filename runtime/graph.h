@@ -75,6 +75,17 @@ struct Parallel {
   void* user = nullptr;
 };
 
+// A part of a frame for a command buffer of the engine's, which is being recorded, outside a rendering scope, and belongs to the family of Device::queue.
+struct OwnCommands {
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  Index last_pass = kNone;  // gets every step after the part before, up to and with this pass; the last part gets the rest
+};
+// What a submit of the engine's signals: a timeline semaphore that outlives the instance, with values that grow.
+struct FrameDone {
+  VkSemaphore timeline = VK_NULL_HANDLE;
+  uint64_t value = 0;
+};
+
 struct GraphOptions {
   uint32_t frames_in_flight = 2;          // 1 to 4
   std::span<const int64_t> extents = {};       // 3 values an extent; empty: the plan's initial ones
@@ -119,6 +130,11 @@ class GraphInstance {
   // Records and submits one frame. Waits only for the frame `frames_in_flight` ago. On failure the frame did not happen; the next call tries again, after a
   // resize to the same extents where a device of several queues had taken a part of it. A lost device stays lost: all later calls say so at once.
   Status execute(const FrameInputs& inputs);
+  // The next execute submits nothing but records into command buffers of the engine's (at most 64), who then ends and submits them in this order on
+  // Device::queue, before this instance is called again, and makes that submit signal `done`. For plans of one queue, or with GraphOptions::single_queue.
+  Status use_commands(std::span<const OwnCommands> parts, const FrameDone& done);
+  // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else `invalid_argument`.
+  Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
   Status wait_idle();
 
   const PassInfo& pass_info(Index pass) const;

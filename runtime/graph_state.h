@@ -237,6 +237,8 @@ struct Sized {
 inline constexpr size_t kMaxPlanQueues = 16;
 struct Moment {
   std::array<uint64_t, 1 + kMaxPlanQueues> values{};
+  VkSemaphore engine = VK_NULL_HANDLE;  // the newest that an engine named for frames it submitted itself, see GraphInstance::record
+  uint64_t engine_value = 0;
 };
 
 // A run of steps that one thread records into one command buffer. Without threads: a batch, or a step with submit_per_pass.
@@ -259,8 +261,6 @@ struct FrameSlot {
   std::vector<UniqueFence> fences;        // by Device::State::queues; only when validating: the layer learns nothing from waits on timelines
   std::vector<bool> fenced;               // which of them the last frame signals
   Moment done;                            // of its last frame
-  VkSemaphore engine_done = VK_NULL_HANDLE;  // instead, where the engine submitted that frame
-  uint64_t engine_value = 0;
   uint64_t frame = UINT64_MAX;
 };
 
@@ -279,6 +279,7 @@ inline constexpr VkQueryPipelineStatisticFlags kPipelineStatistics =
     VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT | VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
     VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
 
+inline constexpr size_t kMaxOwnCommands = 64;
 inline constexpr size_t kMaxExternalSemaphores = 16;  // waits, and signals, of one frame
 struct ImportUse {                                    // by import slot: batches that touch it, one a queue
   std::vector<Index> first, last;
@@ -331,6 +332,9 @@ struct GraphInstance::State {
   std::unique_ptr<Sized> sized;
   std::vector<Retired> retired;
   uint64_t frame = 0;
+  std::vector<SemaphoreUse> waits, signals;  // of the next frame, from use_semaphores; with room
+  std::vector<OwnCommands> own_commands;     // of the next frame, from use_commands; with room
+  FrameDone own_done;
   std::vector<Import> imports;   // of this frame, by slot
   bool imports_applied = false;  // to the barriers of `sized`
   uint64_t sized_at = 0;         // frames executed when `sized` was made

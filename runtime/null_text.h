@@ -35,6 +35,7 @@ RG_HANDLE(VkSemaphore, "semaphore")
 RG_HANDLE(VkFence, "fence")
 RG_HANDLE(VkQueryPool, "queries")
 RG_HANDLE(VkCommandPool, "command_pool")
+RG_HANDLE(VkSwapchainKHR, "swapchain")
 #undef RG_HANDLE
 
 // One line under construction. Appends to the log only; a log with room never allocates.

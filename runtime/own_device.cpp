@@ -320,6 +320,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
   state->on_message = options.on_message;
   const Result<PFN_vkGetInstanceProcAddr> get = open_loader(*state);
   if (!get) return get.error();
+  state->get_instance_proc_addr = *get;
   RG_TRY(create_instance(*state, options, *get));
   RG_TRY(choose_physical_device(*state, options.device));
   RG_TRY(create_device(*state, options));

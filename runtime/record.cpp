@@ -138,20 +138,6 @@ void record_body(const FrameRecording& r, const Pass& pass, const PassObjects& o
   if (pass.rendering != kNone) end_rendering(context, table, r.commands);
 }
 
-void wait_for_all(const FrameRecording& r) {
-  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                 nullptr,
-                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-  VkDependencyInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  info.memoryBarrierCount = 1;
-  info.pMemoryBarriers = &barrier;
-  r.state.context.vk().CmdPipelineBarrier2(r.commands, &info);
-}
-
 void record_pass(FrameRecording& r, Index index) {
   const Pass& pass = r.state.context.plan.passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
@@ -169,6 +155,20 @@ void record_pass(FrameRecording& r, Index index) {
 }
 
 }  // namespace
+
+void wait_for_all(const FrameRecording& r) {
+  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 nullptr,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                 VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &barrier;
+  r.state.context.vk().CmdPipelineBarrier2(r.commands, &info);
+}
 
 FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, VkCommandBuffer commands, Index queue) {
   const Context& context = state.context;

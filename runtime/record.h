@@ -22,6 +22,8 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
 void reset_queries(const FrameRecording& recording);
 
 void record_step(FrameRecording& recording, const Step& step);
+void wait_for_all(const FrameRecording& recording);  // a barrier from everything to everything
+
 void close_module(FrameRecording& recording);  // at the end of every command buffer
 
 // The dump that was asked for, right after its pass. In dump.cpp.

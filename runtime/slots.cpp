@@ -184,6 +184,9 @@ void reserve_submits(GraphInstance::State& state) {
   state.entry_waits.reserve(entries);
   state.submit_waits.reserve(plan.waits.size() + plan.queues.size() * entries + kMaxExternalSemaphores * plan.queues.size() + kMaxPlanQueues);
   state.submit_signals.reserve(plan.signals.size() + 2 + kMaxExternalSemaphores);
+  state.waits.reserve(kMaxExternalSemaphores);
+  state.signals.reserve(kMaxExternalSemaphores);
+  state.own_commands.reserve(kMaxOwnCommands);
   state.chunk_results.resize(state.chunks.size());
   state.wall_ms.resize(plan.passes.size());
 }

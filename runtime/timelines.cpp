@@ -23,8 +23,8 @@ Result<UniqueSemaphore> create_timeline(const Context& context) {
 
 // The semaphores and values of a moment as Vulkan wants them.
 struct WaitArrays {
-  std::array<VkSemaphore, 1 + kMaxPlanQueues> semaphores;
-  std::array<uint64_t, 1 + kMaxPlanQueues> values;
+  std::array<VkSemaphore, 2 + kMaxPlanQueues> semaphores;
+  std::array<uint64_t, 2 + kMaxPlanQueues> values;
   uint32_t count = 0;
 };
 WaitArrays wait_arrays(const GraphInstance::State& state, const Moment& moment) {
@@ -33,6 +33,10 @@ WaitArrays wait_arrays(const GraphInstance::State& state, const Moment& moment) 
     if (moment.values[i] == 0) continue;
     out.semaphores[out.count] = state.timelines[i].get();
     out.values[out.count++] = moment.values[i];
+  }
+  if (moment.engine != VK_NULL_HANDLE) {
+    out.semaphores[out.count] = moment.engine;
+    out.values[out.count++] = moment.engine_value;
   }
   return out;
 }
@@ -88,27 +92,14 @@ Status wait_for(const GraphInstance::State& state, const Moment& moment) {
   return Done{};
 }
 
-Status wait_for_slot(const GraphInstance::State& state, const FrameSlot& slot) {
-  if (slot.engine_done != VK_NULL_HANDLE) RG_TRY(wait_for_semaphores(state.context, 1, &slot.engine_done, &slot.engine_value));
-  return wait_for(state, slot.done);
-}
-
 bool reached(const GraphInstance::State& state, const Moment& moment) {
-  for (size_t i = 0; i < state.timelines.size(); ++i) {
-    if (moment.values[i] == 0) continue;
+  const WaitArrays arrays = wait_arrays(state, moment);
+  for (uint32_t i = 0; i < arrays.count; ++i) {
     uint64_t done = 0;
-    if (state.context.vk().GetSemaphoreCounterValue(state.context.device.device, state.timelines[i].get(), &done) != VK_SUCCESS) return false;
-    if (done < moment.values[i]) return false;
+    if (state.context.vk().GetSemaphoreCounterValue(state.context.device.device, arrays.semaphores[i], &done) != VK_SUCCESS) return false;
+    if (done < arrays.values[i]) return false;
   }
   return true;
-}
-
-bool slot_done(const GraphInstance::State& state, const FrameSlot& slot) {
-  uint64_t done = 0;
-  if (slot.engine_done != VK_NULL_HANDLE &&
-      (state.context.vk().GetSemaphoreCounterValue(state.context.device.device, slot.engine_done, &done) != VK_SUCCESS || done < slot.engine_value))
-    return false;
-  return reached(state, slot.done);
 }
 
 void release_retired(GraphInstance::State& state) {

@@ -9,11 +9,9 @@ Status create_timelines(GraphInstance::State& state);
 
 // Waits on the host. Zeros cost nothing.
 Status wait_for(const GraphInstance::State& state, const Moment& moment);
-Status wait_for_slot(const GraphInstance::State& state, const FrameSlot& slot);
 
 // False also where the driver cannot say.
 bool reached(const GraphInstance::State& state, const Moment& moment);
-bool slot_done(const GraphInstance::State& state, const FrameSlot& slot);
 
 // Drops what resizes have retired and the device has finished with.
 void release_retired(GraphInstance::State& state);

@@ -11,7 +11,7 @@ namespace {
 const FrameSlot* last_finished(const GraphInstance::State& state) {
   const FrameSlot* last = nullptr;
   for (const FrameSlot& slot : state.slots)
-    if (slot.frame != UINT64_MAX && (last == nullptr || slot.frame > last->frame) && slot_done(state, slot)) last = &slot;
+    if (slot.frame != UINT64_MAX && (last == nullptr || slot.frame > last->frame) && reached(state, slot.done)) last = &slot;
   return last;
 }
 
