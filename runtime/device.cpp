@@ -32,6 +32,7 @@ VkDevice Device::handle() const { return state_->device; }
 VkPhysicalDevice Device::physical() const { return state_->physical; }
 VkQueue Device::queue() const { return state_->queues[0].handle; }
 uint32_t Device::queue_family() const { return state_->queues[0].family; }
+std::span<const uint32_t> Device::queue_families() const { return state_->families; }
 size_t Device::queue_count() const { return state_->queues.size(); }
 std::string_view Device::name() const { return state_->name; }
 const VkPhysicalDeviceLimits& Device::limits() const { return state_->limits; }
@@ -78,6 +79,7 @@ void describe_physical_device(Device::State& state) {
 
 void add_queue(Device::State& state, const ExternalQueue& queue) {
   if (queue.mutex == nullptr) state.mutexes.push_back(std::make_unique<std::mutex>());
+  if (std::find(state.families.begin(), state.families.end(), queue.family) == state.families.end()) state.families.push_back(queue.family);
   state.queues.push_back({queue.queue, queue.family, 0, 0, false, queue.mutex != nullptr ? queue.mutex : state.mutexes.back().get()});
 }
 

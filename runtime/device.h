@@ -90,6 +90,8 @@ class Device {
   VkQueue queue() const;  // does graphics and compute
   uint32_t queue_family() const;
   size_t queue_count() const;             // over all families
+  // The families of all queues, without repetition. Imports that a plan uses on several queues (Resource::concurrent) are created for all of them.
+  std::span<const uint32_t> queue_families() const;
   // Waits on the host until nothing runs; for shutting down. Excludes submits of other threads.
   Status wait_idle();
   std::string_view name() const;          // "llvmpipe (LLVM 15.0.6, 256 bits)"

@@ -42,6 +42,7 @@ struct Device::State {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   std::vector<DeviceQueue> queues;  // [0] does graphics and compute
+  std::vector<uint32_t> families;  // of `queues`, without repetition
   std::vector<std::unique_ptr<std::mutex>> mutexes;
   bool owned = false;  // instance, messenger and device are destroyed with the state
   std::string name;

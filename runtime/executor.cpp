@@ -32,6 +32,8 @@ VkResult record_steps(const FrameJob& job, uint32_t index) {
   if (const VkResult result = vk.BeginCommandBuffer(commands, &begin); result != VK_SUCCESS) return result;
   FrameRecording recording = start_recording(job.state, job.inputs, job.slot, commands, job.state.context.plan.batches[chunk.batch].queue);
   if (index == 0) reset_queries(recording);
+  if (job.state.entry_barrier && index == job.state.first_chunk[job.state.first_batch_of_queue[job.state.context.plan.batches[chunk.batch].queue]])
+    wait_for_all(recording);
   for (const Step& step : job.state.context.plan.steps.subspan(chunk.first_step, chunk.step_count)) record_step(recording, step);
   close_module(recording);
   return vk.EndCommandBuffer(commands);
@@ -63,7 +65,8 @@ Status submit_one_by_one(GraphInstance::State& state, FrameSlot& slot) {
   for (uint32_t i = 0; i < state.chunks.size(); ++i) {
     const Chunk& chunk = state.chunks[i];
     const auto start = std::chrono::steady_clock::now();
-    RG_TRY(submit_one(state, {state.context.queues.device_queue[plan.batches[chunk.batch].queue], slot.commands[i], true, VK_NULL_HANDLE}));
+    const std::span<const VkSemaphoreSubmitInfo> waits = i == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
+    RG_TRY(submit_one(state, {state.context.queues.device_queue[plan.batches[chunk.batch].queue], slot.commands[i], true, waits, VK_NULL_HANDLE}));
     slot.done.values[0] = state.submitted.values[0];
     RG_TRY(wait_for(state, slot.done));
     if (chunk.step_count == 1 && plan.steps[chunk.first_step].kind == StepKind::pass)
@@ -83,9 +86,18 @@ Status run_one_by_one(GraphInstance::State& state, FrameSlot& slot) {
 
 namespace {
 
+// Who had the heap last comes first.
+void take_turn(GraphInstance::State& state) {
+  const TransientHeap* heap = state.context.heap.get();
+  if (heap == nullptr || heap->last_user == nullptr || heap->last_user == &state || state.has_turn) return;
+  wait_at_entry(state, heap->timelines, heap->moment);
+  state.has_turn = true;
+}
+
 // Everything before recording, the wait for the slot included.
 Status begin_frame(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot) {
   RG_TRY(check_inputs(state, inputs));
+  take_turn(state);
   RG_TRY(wait_for(state, slot.done));
   if (!state.retired.empty()) release_retired(state);
   RG_TRY(reset_slot(state, slot));
@@ -96,6 +108,10 @@ Status begin_frame(GraphInstance::State& state, const FrameInputs& inputs, const
 void end_frame(GraphInstance::State& state, FrameSlot& slot) {
   slot.done = state.submitted;
   slot.frame = state.frame++;
+  slot.sources.swap(state.entry_sources);
+  state.entry_sources.clear();
+  state.entry_barrier = state.has_turn = false;
+  if (TransientHeap* heap = state.context.heap.get()) heap->last_user = &state, heap->timelines = state.timelines, heap->moment = state.submitted;
   if (state.dump.pass != kNone && !state.dump.recorded) state.dump.recorded = true, state.dump.done = state.submitted;
 }
 
@@ -119,6 +135,7 @@ class OwnRecorder {
   OwnRecorder(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, std::span<const OwnCommands> parts)
       : state_(state), inputs_(inputs), slot_(slot), parts_(parts), recording_(start(0)) {
     reset_queries(recording_);
+    if (state.entry_barrier) wait_for_all(recording_);
   }
 
   void batch(const Batch& batch) {
@@ -155,6 +172,7 @@ class OwnRecorder {
 Status record_own_frame(GraphInstance::State& state, const FrameInputs& inputs, std::span<const OwnCommands> parts, const FrameDone& done) {
   FrameSlot& slot = state.slots[state.frame % state.slots.size()];
   RG_TRY(begin_frame(state, inputs, slot));
+  RG_TRY(wait_for_entry(state));  // a submit of the engine's waits for nothing of ours
   OwnRecorder recorder(state, inputs, slot, parts);
   for (const Batch& batch : state.context.plan.batches) recorder.batch(batch);
   if (!recorder.finish()) return Error{ErrorCode::invalid_argument, "own commands: their last passes are not in the order in which passes are recorded"};

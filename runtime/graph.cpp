@@ -11,6 +11,7 @@
 #include "runtime/plan_check.h"
 #include "runtime/queues.h"
 #include "runtime/resources.h"
+#include "runtime/turns.h"
 #include "runtime/samplers.h"
 #include "runtime/slots.h"
 #include "runtime/submit.h"
@@ -24,8 +25,8 @@ GraphInstance& GraphInstance::operator=(GraphInstance&&) noexcept = default;
 GraphInstance::~GraphInstance() = default;
 
 GraphInstance::State::~State() {
-  if (context.device.lost) return;  // nothing is in flight
-  static_cast<void>(wait_for(*this, submitted));
+  if (!context.device.lost) static_cast<void>(wait_for(*this, submitted));  // with a lost device nothing is in flight
+  if (context.heap && context.heap->last_user == this) context.heap->last_user = nullptr, context.heap->timelines = nullptr;
 }
 
 namespace {
@@ -41,8 +42,8 @@ Status check_options(const Plan& plan, const GraphOptions& options) {
   return Done{};
 }
 
-Context make_context(Device& device, const Plan& plan, const GraphOptions& options) {
-  Context context{device.state(), plan};
+Context make_context(Device::State& device, const Plan& plan, const GraphOptions& options) {
+  Context context{device, plan};
   context.frames_in_flight = options.frames_in_flight;
   context.threads = options.submit_per_pass ? 1 : options.threads;
   context.aliasing = options.aliasing;
@@ -54,7 +55,8 @@ Context make_context(Device& device, const Plan& plan, const GraphOptions& optio
   context.statistics = options.statistics;
   context.engine_set_layouts.assign(options.engine_set_layouts.begin(), options.engine_set_layouts.end());
   context.parallel = options.parallel;
-  context.queues = map_queues(device.state(), plan, options.single_queue || options.serial);
+  context.heap = options.heap;
+  context.queues = map_queues(device, plan, options.single_queue || options.serial);
   return context;
 }
 
@@ -79,11 +81,11 @@ Status check_extents(const Plan& plan, std::span<const int64_t> values) {
 }
 
 // Everything that depends on extents, or an error and nothing.
-Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Objects& objects, std::span<const int64_t> extents) {
+Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Objects& objects, std::span<const int64_t> extents, const Carried* from) {
   auto sized = std::make_unique<Sized>();
   sized->extents.assign(extents.begin(), extents.end());
   RG_TRY(size_resources(context, *sized));
-  RG_TRY(create_resources(context, *sized));
+  RG_TRY(create_resources(context, from, *sized));
   RG_TRY(create_pass_tables(context, objects, *sized));
   RG_TRY(create_ring(context, *sized));
   RG_TRY(create_sets(context, objects, *sized));
@@ -107,13 +109,24 @@ void count_slots(GraphInstance::State& state) {
     if (transfer.kind == TransferKind::update) state.update_slots = std::max(state.update_slots, transfer.update_slot + 1);
 }
 
-Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents) {
+// What was found in its initial state by the next frame.
+void date_contents(const GraphInstance::State& state, Sized& sized) {
+  for (size_t r = 0; r < sized.kept.size(); ++r)
+    if (sized.kept[r] && !sized.carried[r]) sized.kept[r]->valid_since = state.frame;
+}
+
+Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, const Carried* from = nullptr) {
   RG_TRY(check_extents(state.context.plan, extents));
-  Result<std::unique_ptr<Sized>> sized = create_sized(state.context, state.objects, extents);
+  Result<std::unique_ptr<Sized>> sized = create_sized(state.context, state.objects, extents, from);
   if (!sized) return sized.error();
   state.retired.reserve(state.retired.size() + 1);
+  (*sized)->carried_from = from != nullptr ? &from->plan : nullptr;
   const Status submitted = submit_prologue(state, **sized);
   if (!submitted) return submitted.error();
+  (*sized)->carried_from = nullptr;
+  date_contents(state, **sized);
+  // In a shared heap the new transients may lie where the old ones are still in use.
+  if (state.sized && state.context.heap) wait_at_entry(state, state.timelines, state.submitted);
   if (state.sized) state.retired.push_back({state.submitted, std::move(state.sized)});
   state.sized = std::move(*sized);
   state.imports_applied = false;
@@ -124,17 +137,48 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents) {
 
 }  // namespace
 
-Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
+namespace {
+
+Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options) {
   RG_TRY(check_plan(plan));
   RG_TRY(check_options(plan, options));
-  auto state = std::make_unique<State>(make_context(device, plan, options));
+  auto state = std::make_unique<GraphInstance::State>(make_context(device, plan, options));
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));
   RG_TRY(create_pass_objects(state->context, state->objects));
   RG_TRY(create_frames(*state));
+  return state;
+}
+
+}  // namespace
+
+Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
+  Result<std::unique_ptr<State>> state = create_state(device.state(), plan, options);
+  if (!state) return state.error();
   const std::vector<int64_t> initial = initial_extents(plan);
-  RG_TRY(rebuild(*state, options.extents.empty() ? std::span<const int64_t>(initial) : options.extents));
-  return GraphInstance(std::move(state));
+  RG_TRY(rebuild(**state, options.extents.empty() ? std::span<const int64_t>(initial) : options.extents));
+  return GraphInstance(std::move(*state));
+}
+
+Result<GraphInstance> GraphInstance::create_successor(GraphInstance& current, const Plan& plan, const GraphOptions& options) {
+  State& before = *current.state_;
+  if (before.context.device.lost) return Error{ErrorCode::device_lost, "the device was lost"};
+  Result<std::unique_ptr<State>> state = create_state(before.context.device, plan, options);
+  if (!state) return state.error();
+  State& after = **state;
+  after.frame = before.frame;
+  wait_at_entry(after, before.timelines, before.submitted);
+  const Carried from{before.context.plan, *before.sized, before.context};
+  const std::vector<int64_t> initial = initial_extents(plan);
+  const bool same_extents = before.sized->extents.size() == initial.size();
+  const std::span<const int64_t> otherwise = same_extents ? std::span<const int64_t>(before.sized->extents) : std::span<const int64_t>(initial);
+  RG_TRY(rebuild(after, options.extents.empty() ? otherwise : options.extents, &from));
+  return GraphInstance(std::move(*state));
+}
+
+Status GraphInstance::continue_from(GraphInstance& other) {
+  if (&other == this) return Done{};
+  return follow(*state_, *other.state_);
 }
 
 namespace {
@@ -251,5 +295,22 @@ const PassInfo& GraphInstance::pass_info(Index pass) const { return state_->size
 MemoryReport GraphInstance::memory() const { return state_->sized->report; }
 std::vector<PlacedResource> GraphInstance::placements() const { return state_->sized->placements; }
 uint64_t GraphInstance::frame() const { return state_->frame; }
+const Plan& GraphInstance::plan() const { return state_->context.plan; }
+bool GraphInstance::history_valid(Index resource) const {
+  const std::vector<std::shared_ptr<Kept>>& kept = state_->sized->kept;
+  return resource < kept.size() && kept[resource] != nullptr && state_->frame > kept[resource]->valid_since;
+}
+
+std::shared_ptr<TransientHeap> make_transient_heap() { return std::make_shared<TransientHeap>(); }
+
+Status GraphInstance::set_active(std::span<const int64_t> extents) {
+  RG_TRY(check_extents(state_->context.plan, extents));
+  for (size_t i = 0; i < extents.size(); ++i)
+    if (extents[i] > state_->sized->extents[i])
+      return Error{ErrorCode::invalid_argument, "active extent " + std::to_string(extents[i]) + " is larger than the one that memory was placed for: " +
+                                                    std::to_string(state_->sized->extents[i]) + "; resize first"};
+  activate(state_->context, *state_->sized, extents);
+  return Done{};
+}
 
 }  // namespace rg

@@ -86,6 +86,11 @@ struct FrameDone {
   uint64_t value = 0;
 };
 
+// Memory that the transients of several instances take turns in: the views of a split screen, the faces of a probe, the versions of a plan. A frame of one
+// waits, on the GPU, for the last frame of whoever had it before. One thread for all of them; lives as long as one of them does.
+struct TransientHeap;
+std::shared_ptr<TransientHeap> make_transient_heap();
+
 struct GraphOptions {
   uint32_t frames_in_flight = 2;          // 1 to 4
   std::span<const int64_t> extents = {};       // 3 values an extent; empty: the plan's initial ones
@@ -99,6 +104,7 @@ struct GraphOptions {
   bool timestamps = true;                 // two GPU timestamps a pass, for pass_times
   bool statistics = false;                // pipeline statistics of each pass, where the device has them
   uint32_t threads = 1;                   // 1 to 64: that many record a frame; callbacks of different passes then run at the same time
+  std::shared_ptr<TransientHeap> heap = {};  // null: transients have memory of their own
   Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
 };
 
@@ -120,6 +126,13 @@ class GraphInstance {
  public:
   // The device and the tables that `plan` points to outlive the instance; the device may be moved.
   static Result<GraphInstance> create(Device& device, const Plan& plan, const GraphOptions& options);
+  // An instance that goes on where `current` is: another variant of the plan, an edited one, or the same with other options. History and persistent
+  // resources of the same name and shape are shared; others start from their initial values. `current` may be destroyed, or executed again later
+  // (see continue_from). The device and extents are those of `current` where `options` has none. On failure nothing has changed.
+  static Result<GraphInstance> create_successor(GraphInstance& current, const Plan& plan, const GraphOptions& options);
+  // The next frame of this instance follows the last one of `other`: same frame number, same history, and it waits for it on the GPU. Both share
+  // their kept resources, by create_successor. No stall of the host, no allocation beyond a few barriers.
+  Status continue_from(GraphInstance& other);
   GraphInstance(GraphInstance&&) noexcept;
   GraphInstance& operator=(GraphInstance&&) noexcept;
   ~GraphInstance();  // waits for its own frames
@@ -136,7 +149,11 @@ class GraphInstance {
   // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else `invalid_argument`.
   Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
   Status wait_idle();
+  // Dynamic resolution: from the next frame on passes run over these extents, at most those of creation or resize; nothing is placed or made anew, images keep their
+  // size and are used from their corner. Cost: O(passes), no allocation.
+  Status set_active(std::span<const int64_t> extents);
 
+  const Plan& plan() const;
   const PassInfo& pass_info(Index pass) const;
   MemoryReport memory() const;
   std::vector<PlacedResource> placements() const;
@@ -149,7 +166,9 @@ class GraphInstance {
   // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump.
   Status request_dump(Index pass, Index resource, uint32_t mip = 0);
   Result<Dump> take_dump();
-  uint64_t frame() const;  // frames executed
+  uint64_t frame() const;  // frames executed, those of the instances before included
+  // Whether `prev(1)` of a history or persistent resource is what a frame has left, and not its initial value.
+  bool history_valid(Index resource) const;
 
   struct State;  // graph_state.h, for the runtime's own files
 

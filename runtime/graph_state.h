@@ -31,6 +31,7 @@ struct Context {
   bool aliasing = true, poison = false, debug_readback = false, submit_per_pass = false, serial = false, timestamps = true, statistics = false;
   std::vector<VkDescriptorSetLayout> engine_set_layouts = {};
   Parallel parallel = {};
+  std::shared_ptr<TransientHeap> heap = {};
   QueueMap queues = {};
 
   const DeviceFunctions& vk() const { return device.vk; }
@@ -179,7 +180,8 @@ struct TransferTable {
 };
 
 struct PassTable {
-  bool runs = true;  // every mip that it touches exists
+  bool runs = true;   // every mip that it touches exists
+  bool idle = false;  // at the active extents one does not
   PassInfo info;
   RenderingTable rendering;
   SetTable set;
@@ -197,6 +199,19 @@ struct Ring {
   std::vector<uint32_t> param_offsets;  // by Plan::params, within a section
 };
 
+// Contents that outlive plans and instances: one history or persistent resource with all its copies and memory of its own. Shared by the instances that take
+// turns with it.
+struct Kept {
+  VkImageCreateInfo image{};  // what it was made with; the pointers in it are not followed
+  VkBufferCreateInfo buffer{};
+  UniqueMemory memory;  // declared before what lies in it
+  std::vector<UniqueImage> images;
+  std::vector<UniqueBuffer> buffers;
+  uint64_t valid_since = 0;  // the frame that found it in its initial state
+};
+
+using Timelines = std::vector<UniqueSemaphore>;  // as in Moment; the plan's only where it signals
+
 struct HostCopy {
   std::byte* mapped = nullptr;
   VkDeviceMemory memory = VK_NULL_HANDLE;
@@ -209,10 +224,19 @@ struct TransferRef {
 struct Sized {
   std::vector<int64_t> extents;
   std::vector<int64_t> values;           // of Plan::exprs at these extents
+  std::vector<int64_t> active_extents;   // at most `extents`; see GraphInstance::set_active
   std::vector<UniqueMemory> memories;    // declared before what lies in it, so destroyed after it
-  std::vector<SizedResource> resources;  // by Plan::resources
-  std::vector<UniqueImage> images;
-  std::vector<UniqueBuffer> buffers;
+  std::vector<std::shared_ptr<UniqueMemory>> shared_memories;  // of a TransientHeap
+  std::vector<SizedResource> resources;                        // by Plan::resources
+  std::vector<VkExtent3D> active;                              // by Plan::resources: at the active extents
+  std::vector<UniqueImage> own_images;
+  std::vector<UniqueBuffer> own_buffers;
+  std::vector<std::shared_ptr<Kept>> kept;  // by Plan::resources; null: not history or persistent
+  std::vector<bool> carried;                // by Plan::resources: `kept` came with its contents
+  const Plan* carried_from = nullptr;       // in whose state between frames; only while the prologue is recorded
+  bool carried_only = false;                // the prologue has nothing else to do; likewise
+  std::vector<VkImage> images;              // of either owner
+  std::vector<VkBuffer> buffers;
   std::vector<HostCopy> host_copies;  // by buffer; empty for those the host cannot see
   std::vector<UniqueView> views;
   std::vector<ImportedView> imported_views;
@@ -261,6 +285,7 @@ struct FrameSlot {
   std::vector<UniqueFence> fences;        // by Device::State::queues; only when validating: the layer learns nothing from waits on timelines
   std::vector<bool> fenced;               // which of them the last frame signals
   Moment done;                            // of its last frame
+  std::vector<std::shared_ptr<Timelines>> sources;  // of other instances that its last frame waits for
   uint64_t frame = UINT64_MAX;
 };
 
@@ -303,6 +328,19 @@ struct Retired {
   std::unique_ptr<Sized> sized;
 };
 
+// What instances that take turns with their transients share. Who comes after another waits for it as a whole, on the GPU.
+struct TransientHeap {
+  struct Block {
+    uint32_t type = 0;
+    VkDeviceSize bytes = 0;
+    std::shared_ptr<UniqueMemory> memory;
+  };
+  std::vector<Block> blocks;           // the largest so far of each memory type
+  const void* last_user = nullptr;     // a GraphInstance::State
+  std::shared_ptr<Timelines> timelines;  // of the last user
+  Moment moment;
+};
+
 class Workers;
 struct WorkersDeleter {
   void operator()(Workers* workers) const;
@@ -314,8 +352,8 @@ struct GraphInstance::State {
 
   Context context;
   Objects objects;
-  std::vector<UniqueSemaphore> timelines;  // as in Moment; the plan's only where it signals
-  Moment submitted;                        // the last values that were submitted
+  std::shared_ptr<Timelines> timelines = std::make_shared<Timelines>();  // shared with whoever takes turns: it waits for them
+  Moment submitted;                                                      // the last values that were submitted
   std::array<uint64_t, kMaxPlanQueues> signals_a_frame{};  // by Plan::queues
   std::vector<Chunk> chunks;                               // in the order of steps
   std::vector<uint32_t> first_chunk;                       // by batch, and the end
@@ -324,6 +362,9 @@ struct GraphInstance::State {
   std::vector<Index> first_batch_of_queue;                 // kNone: no batch
   std::vector<ImportUse> import_uses;
   std::vector<VkSemaphoreSubmitInfo> entry_waits;          // of the first batch on every queue of the next frame
+  bool entry_barrier = false;                              // the next frame begins behind everything before it on each queue
+  bool has_turn = false;                                   // the heap's last user is among the entry waits
+  std::vector<std::shared_ptr<Timelines>> entry_sources;   // whose semaphores the last entry waits named
   std::vector<FrameSlot> slots;
   Prologue prologue;
   std::unique_ptr<Workers, WorkersDeleter> workers;

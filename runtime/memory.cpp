@@ -43,9 +43,9 @@ Item make_item(const Context& context, const Sized& sized, Index r, uint32_t obj
   Item item{r, object, resource.kind == ResourceKind::image, arena_of(resource)};
   VkMemoryRequirements requirements;
   if (item.is_image)
-    context.vk().GetImageMemoryRequirements(context.device.device, sized.images[object].get(), &requirements);
+    context.vk().GetImageMemoryRequirements(context.device.device, sized.images[object], &requirements);
   else
-    context.vk().GetBufferMemoryRequirements(context.device.device, sized.buffers[object].get(), &requirements);
+    context.vk().GetBufferMemoryRequirements(context.device.device, sized.buffers[object], &requirements);
   const VkDeviceSize granularity = std::max<VkDeviceSize>(context.device.limits.bufferImageGranularity, 1);
   item.alignment = std::max(requirements.alignment, granularity);
   item.bytes = round_up(requirements.size, granularity);
@@ -97,9 +97,9 @@ VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& ite
 Status bind(const Context& context, const Sized& sized, const Item& item, VkDeviceMemory memory) {
   const std::string_view name = context.plan.resources[item.resource].name;
   if (item.is_image)
-    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object].get(), memory, item.offset), "vkBindImageMemory",
+    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object], memory, item.offset), "vkBindImageMemory",
                  name);
-  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object].get(), memory, item.offset), "vkBindBufferMemory",
+  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object], memory, item.offset), "vkBindBufferMemory",
                name);
 }
 
@@ -132,7 +132,52 @@ VkDeviceSize place(const Context& context, Sized& sized, Arena arena, const std:
   return heap;
 }
 
+// The heap's block of this type, or a larger one that replaces it for those who come later.
+Result<VkDeviceMemory> take_block(const Context& context, Sized& sized, VkDeviceSize bytes, uint32_t type) {
+  std::vector<TransientHeap::Block>& blocks = context.heap->blocks;
+  auto block = std::find_if(blocks.begin(), blocks.end(), [&](const TransientHeap::Block& b) { return b.type == type; });
+  if (block == blocks.end() || block->bytes < bytes) {
+    Result<UniqueMemory> memory = allocate_memory(context.device, bytes, type, context.plan.name);
+    if (!memory) return memory.error();
+    if (block == blocks.end()) block = blocks.insert(blocks.end(), TransientHeap::Block{type, 0, nullptr});
+    block->bytes = bytes;
+    block->memory = std::make_shared<UniqueMemory>(std::move(*memory));
+  }
+  sized.shared_memories.push_back(block->memory);
+  return block->memory->get();
+}
+
+Status place_in_heap(const Context& context, Sized& sized, uint32_t type, const std::vector<Item*>& items) {
+  const Result<VkDeviceMemory> memory = take_block(context, sized, place(context, sized, Arena::transient, items), type);
+  if (!memory) return memory.error();
+  for (const Item* item : items) RG_TRY(bind(context, sized, *item, *memory));
+  return Done{};
+}
+
+// Memory of its own for a resource that outlives plans.
+Status place_kept(const Context& context, Sized& sized, const std::vector<Item*>& copies) {
+  Kept& kept = *sized.kept[copies[0]->resource];
+  const VkDeviceSize bytes = place(context, sized, Arena::own, copies);
+  Result<UniqueMemory> memory = allocate_memory(context.device, bytes, copies[0]->type, context.plan.resources[copies[0]->resource].name);
+  if (!memory) return memory.error();
+  kept.memory = std::move(*memory);
+  for (const Item* item : copies) RG_TRY(bind(context, sized, *item, kept.memory.get()));
+  return Done{};
+}
+
+Status place_all_kept(const Context& context, Sized& sized, std::vector<Item>& items) {
+  for (size_t i = 0; i < items.size();) {
+    std::vector<Item*> copies;
+    const Index resource = items[i].resource;
+    for (; i < items.size() && items[i].resource == resource; ++i) copies.push_back(&items[i]);
+    if (copies[0]->arena != Arena::own || sized.carried[resource]) continue;
+    RG_TRY(place_kept(context, sized, copies));
+  }
+  return Done{};
+}
+
 Status place_arena(const Context& context, Sized& sized, Arena arena, uint32_t type, const std::vector<Item*>& items) {
+  if (arena == Arena::transient && context.heap) return place_in_heap(context, sized, type, items);
   const VkDeviceSize heap = place(context, sized, arena, items);
   Result<UniqueMemory> memory = allocate_memory(context.device, heap, type, context.plan.name);
   if (!memory) return memory.error();
@@ -158,7 +203,8 @@ Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, 
 Status place_resources(const Context& context, Sized& sized) {
   std::vector<Item> items = list_items(context, sized);
   sized.placed.resize(sized.resources.size());
-  for (const Arena arena : {Arena::transient, Arena::own, Arena::host})
+  RG_TRY(place_all_kept(context, sized, items));
+  for (const Arena arena : {Arena::transient, Arena::host})
     for (uint32_t type = 0; type < VK_MAX_MEMORY_TYPES; ++type) {
       std::vector<Item*> chosen;
       for (Item& item : items)

@@ -66,7 +66,30 @@ Status check_dispatch(const Context& context, const Pass& pass, const PassTable&
   return Done{};
 }
 
+// At smaller extents an image has a shorter chain.
+bool mips_exist_now(const Context& context, const Sized& sized, const Pass& pass) {
+  for (const MipLimit& limit : context.plan.mip_limits.subspan(pass.first_mip_limit, pass.mip_limit_count)) {
+    const VkExtent3D& extent = sized.resources[limit.image].extent;
+    if (std::max({extent.width, extent.height, extent.depth}) >> limit.mip == 0) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+void resize_pass(const Context& context, Sized& sized, Index index) {
+  const Pass& pass = context.plan.passes[index];
+  PassTable& table = sized.passes[index];
+  table.idle = !mips_exist_now(context, sized, pass);
+  fill_work(context, sized, pass.work, table);
+  table.info.extent = {table.x, table.y};
+  if (pass.rendering != kNone) {
+    const Rendering& rendering = context.plan.renderings[pass.rendering];
+    table.info.extent = {side(context, sized, rendering.width), side(context, sized, rendering.height)};
+    table.rendering.area.extent = table.info.extent;
+  }
+  for (TransferTable& transfer : table.transfers) resize_transfer(context, sized, transfer);
+}
 
 Status create_pass_tables(const Context& context, const Objects& objects, Sized& sized) {
   sized.passes.resize(context.plan.passes.size());

@@ -1,11 +1,12 @@
-// The tables that recording walks: one row a pass.
 #pragma once
 
 #include "runtime/graph_state.h"
 
 namespace rg {
 
-// Everything that depends on extents and comes before the ring and the sets: attachments, group counts, regions, PassInfo.
 Status create_pass_tables(const Context& context, const Objects& objects, Sized& sized);
+
+// What a pass covers, at the extents and image sizes that are set now. Allocates nothing.
+void resize_pass(const Context& context, Sized& sized, Index pass);
 
 }  // namespace rg

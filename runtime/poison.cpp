@@ -45,7 +45,7 @@ VkImageMemoryBarrier2 to_fill(VkImage image, const VkImageSubresourceRange& rang
 }
 
 void poison_images(const Sized& sized, Index resource, GroupTable& group, PoisonTable& poison) {
-  const VkImage image = sized.images[sized.resources[resource].first].get();
+  const VkImage image = sized.images[sized.resources[resource].first];
   const size_t one_phase = group.images.size() / group.period;  // the same barriers again in every phase
   for (size_t i = 0; i < group.images.size(); ++i) {
     VkImageMemoryBarrier2& barrier = group.images[i];
@@ -75,7 +75,7 @@ PoisonTable& poison_of(Sized& sized, GroupTable& group) {
 }
 
 void fill_image(const Context& context, const Sized& sized, const PoisonTable::Target& target, VkCommandBuffer commands) {
-  const VkImage image = sized.images[sized.resources[target.resource].first].get();
+  const VkImage image = sized.images[sized.resources[target.resource].first];
   if ((target.range.aspectMask & VK_IMAGE_ASPECT_COLOR_BIT) != 0) {
     VkClearColorValue value;
     std::fill(std::begin(value.uint32), std::end(value.uint32), kPattern);
@@ -114,7 +114,7 @@ void record_poison(const Context& context, const Sized& sized, const PoisonTable
     if (context.plan.resources[target.resource].kind == ResourceKind::image)
       fill_image(context, sized, target, commands);
     else
-      context.vk().CmdFillBuffer(commands, sized.buffers[sized.resources[target.resource].first].get(), 0, VK_WHOLE_SIZE, kPattern);
+      context.vk().CmdFillBuffer(commands, sized.buffers[sized.resources[target.resource].first], 0, VK_WHOLE_SIZE, kPattern);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "runtime/queues.h"
 #include "runtime/resolve.h"
+#include "runtime/resources.h"
 
 namespace rg {
 
@@ -37,6 +38,7 @@ void submit_barriers(const Context& context, const std::vector<VkImageMemoryBarr
 // discards and waits for nothing, so nothing may be pending on them.
 bool needs_clear(const Context& context, const Sized& sized, const Boundary& boundary) {
   const Resource& resource = context.plan.resources[boundary.ref.resource];
+  if (sized.carried[boundary.ref.resource] || sized.carried_only) return false;
   if (!cleared(resource) || boundary.discard || sized.resources[boundary.ref.resource].count == 0) return false;
   if (resource.kind == ResourceKind::buffer) return true;
   return boundary.layout != Layout::undefined && image_range(context, sized, boundary.ref.resource, boundary.range).levelCount != 0;
@@ -79,7 +81,7 @@ void clear_resources(const Context& context, const Sized& sized, uint64_t frame,
       continue;
     }
     const uint32_t buffer = copy_index(sized.resources[boundary.ref.resource], boundary.ref.age, frame);
-    if (!filled[buffer]) context.vk().CmdFillBuffer(commands, sized.buffers[buffer].get(), 0, VK_WHOLE_SIZE, value.word[0]);
+    if (!filled[buffer]) context.vk().CmdFillBuffer(commands, sized.buffers[buffer], 0, VK_WHOLE_SIZE, value.word[0]);
     filled[buffer] = true;
   }
 }
@@ -91,7 +93,7 @@ uint32_t owner_of(const Context& context, const Boundary& boundary) {
 }
 
 bool has_contents(const Context& context, const Sized& sized, const Boundary& boundary) {
-  if (sized.resources[boundary.ref.resource].count == 0) return false;
+  if (sized.resources[boundary.ref.resource].count == 0 || (sized.carried_only && !sized.carried[boundary.ref.resource])) return false;
   return is_image(context, boundary) ? boundary.layout != Layout::undefined : needs_clear(context, sized, boundary);
 }
 
@@ -107,14 +109,26 @@ Scope entry_scope(const Boundary& boundary) {
 }
 
 Scope filled_scope(const Context& context, const Sized& sized, const Boundary& boundary) {
+  if (sized.carried[boundary.ref.resource]) return {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT};
   if (!needs_clear(context, sized, boundary)) return {};
   return {is_image(context, boundary) ? VK_PIPELINE_STAGE_2_CLEAR_BIT : kFillStages, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+}
+
+// In the plan before, under the same name. Null: that plan is this one.
+VkImageLayout carried_layout(const Context& context, const Sized& sized, const Boundary& boundary, const VkImageSubresourceRange& range) {
+  const Plan& before = sized.carried_from != nullptr ? *sized.carried_from : context.plan;
+  for (Index r = 0; r < before.resources.size(); ++r)
+    if (before.resources[r].name == context.plan.resources[boundary.ref.resource].name)
+      return static_cast<VkImageLayout>(
+          layout_between_frames(before, {r, boundary.ref.age}, range.aspectMask, range.baseMipLevel, range.baseArrayLayer));
+  return VK_IMAGE_LAYOUT_UNDEFINED;
 }
 
 // What brings the range of an image from where the clears left it to its entry layout.
 VkImageMemoryBarrier2 entry_barrier(const Context& context, const Sized& sized, const Boundary& boundary, uint64_t frame) {
   const VkImageSubresourceRange range = image_range(context, sized, boundary.ref.resource, boundary.range);
   VkImageMemoryBarrier2 barrier = image_barrier(image_at(sized, {}, context.plan, boundary.ref, frame), range);
+  if (sized.carried[boundary.ref.resource]) barrier.oldLayout = carried_layout(context, sized, boundary, range);
   if (needs_clear(context, sized, boundary)) barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
   barrier.newLayout = static_cast<VkImageLayout>(boundary.layout);
   return barrier;
@@ -123,7 +137,7 @@ VkBufferMemoryBarrier2 entry_buffer_barrier(const Sized& sized, const Boundary& 
   VkBufferMemoryBarrier2 barrier{};
   barrier.sType = VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2;
   barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.buffer = sized.buffers[copy_index(sized.resources[boundary.ref.resource], boundary.ref.age, frame)].get();
+  barrier.buffer = sized.buffers[copy_index(sized.resources[boundary.ref.resource], boundary.ref.age, frame)];
   barrier.size = VK_WHOLE_SIZE;
   return barrier;
 }
@@ -152,6 +166,7 @@ void enter(const Context& context, const Sized& sized, const Boundary& boundary,
   if (is_image(context, boundary)) {
     if (image_range(context, sized, boundary.ref.resource, boundary.range).levelCount == 0) return;
     VkImageMemoryBarrier2 barrier = entry_barrier(context, sized, boundary, frame);
+    if (sized.carried[boundary.ref.resource] && barrier.oldLayout == barrier.newLayout) return;  // its owner has it as it should be
     set_scopes(barrier, src, dst, home, owner);
     out.images.push_back(barrier);
     return;

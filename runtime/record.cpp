@@ -146,7 +146,7 @@ void record_pass(FrameRecording& r, Index index) {
   begin_label(r, objects.name);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
   begin_statistics(r, index);
-  if (table.runs && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
+  if (table.runs && !table.idle && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
   end_statistics(r, index);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
   if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);

@@ -7,6 +7,12 @@
 namespace rg {
 
 void evaluate_all(const Context& context, Sized& sized) {
+  sized.values.reserve(context.plan.exprs.size());
+  evaluate_again(context, sized);
+}
+
+void evaluate_again(const Context& context, Sized& sized) {
+  sized.values.clear();
   auto value_of = [&](Index operand) { return Expr{ExprOp::constant, kNone, kNone, operand == kNone ? 1 : sized.values[operand]}; };
   for (const Expr& expr : context.plan.exprs) {
     const bool leaf = expr.op == ExprOp::constant || expr.op == ExprOp::extent;
@@ -39,12 +45,12 @@ uint32_t copies_of(const Sized& sized, Index resource) { return std::max(sized.r
 VkImage image_at(const Sized& sized, const std::vector<Import>& imports, const Plan& plan, Ref ref, uint64_t frame) {
   const SizedResource& resource = sized.resources[ref.resource];
   if (resource.count == 0) return imports[plan.resources[ref.resource].import_slot].image.image;
-  return sized.images[copy_index(resource, ref.age, frame)].get();
+  return sized.images[copy_index(resource, ref.age, frame)];
 }
 
 BufferSpan buffer_at(const Sized& sized, const std::vector<Import>& imports, const Plan& plan, Ref ref, const ByteRange& bytes, uint64_t frame) {
   const SizedResource& resource = sized.resources[ref.resource];
-  if (resource.count != 0) return {sized.buffers[copy_index(resource, ref.age, frame)].get(), bytes.offset, bytes.size};
+  if (resource.count != 0) return {sized.buffers[copy_index(resource, ref.age, frame)], bytes.offset, bytes.size};
   const ImportedBuffer& imported = imports[plan.resources[ref.resource].import_slot].buffer;
   const VkDeviceSize rest = imported.size == VK_WHOLE_SIZE ? VK_WHOLE_SIZE : imported.size - std::min(imported.size, bytes.offset);
   return {imported.buffer, imported.offset + bytes.offset, std::min(bytes.size, rest)};

@@ -8,6 +8,9 @@ namespace rg {
 // Fills `values`: each node once, so that shared operands cost nothing.
 void evaluate_all(const Context& context, Sized& sized);
 
+// The same with other extents; allocates nothing.
+void evaluate_again(const Context& context, Sized& sized);
+
 inline int64_t evaluate(const Context&, const Sized& sized, Index expr) { return expr == kNone ? 1 : sized.values[expr]; }
 
 // Bytes of `resource`; `bytes` kNone reaches to the end.

@@ -125,31 +125,75 @@ Status check_image_support(const Context& context, const Resource& resource, con
   return check(result, "vkGetPhysicalDeviceImageFormatProperties", resource.name);
 }
 
-Status create_image(const Context& context, const Resource& resource, const SizedResource& size, Sized& sized) {
+Status create_image(const Context& context, const Resource& resource, const SizedResource& size, Index r, Sized& sized) {
   const VkImageCreateInfo info = image_info(context, resource, size);
   RG_TRY(check_image_support(context, resource, info));
+  std::vector<UniqueImage>& owner = sized.kept[r] ? sized.kept[r]->images : sized.own_images;
   for (uint32_t copy = 0; copy < size.count; ++copy) {
     VkImage image = VK_NULL_HANDLE;
     RG_TRY(check(context.vk().CreateImage(context.device.device, &info, context.vk().allocator, &image), "vkCreateImage", resource.name));
-    sized.images.emplace_back(context.vk(), context.device.device, image);
+    owner.emplace_back(context.vk(), context.device.device, image);
+    sized.images.push_back(image);
     name_object(context.device, VK_OBJECT_TYPE_IMAGE, image, resource.name);
   }
+  if (sized.kept[r]) sized.kept[r]->image = info;
   return Done{};
 }
 
-Status create_buffer(const Context& context, const Resource& resource, const SizedResource& size, Sized& sized) {
+VkBufferCreateInfo buffer_info(const Context& context, const Resource& resource, const SizedResource& size) {
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = size.bytes;
   info.usage = buffer_usage(context, resource);
   share(context, resource, info);
+  return info;
+}
+
+Status create_buffer(const Context& context, const Resource& resource, const SizedResource& size, Index r, Sized& sized) {
+  const VkBufferCreateInfo info = buffer_info(context, resource, size);
+  std::vector<UniqueBuffer>& owner = sized.kept[r] ? sized.kept[r]->buffers : sized.own_buffers;
   for (uint32_t copy = 0; copy < size.count; ++copy) {
     VkBuffer buffer = VK_NULL_HANDLE;
     RG_TRY(check(context.vk().CreateBuffer(context.device.device, &info, context.vk().allocator, &buffer), "vkCreateBuffer", resource.name));
-    sized.buffers.emplace_back(context.vk(), context.device.device, buffer);
+    owner.emplace_back(context.vk(), context.device.device, buffer);
+    sized.buffers.push_back(buffer);
     name_object(context.device, VK_OBJECT_TYPE_BUFFER, buffer, resource.name);
   }
+  if (sized.kept[r]) sized.kept[r]->buffer = info;
   return Done{};
+}
+
+// ---- kept contents ------------------------------------------------------------------------------------------------
+
+bool same_shape(const VkImageCreateInfo& a, const VkImageCreateInfo& b) {
+  return a.flags == b.flags && a.imageType == b.imageType && a.format == b.format && a.extent.width == b.extent.width &&
+         a.extent.height == b.extent.height && a.extent.depth == b.extent.depth && a.mipLevels == b.mipLevels && a.arrayLayers == b.arrayLayers &&
+         a.samples == b.samples && a.sharingMode == b.sharingMode && (b.usage & ~a.usage) == 0;
+}
+bool same_shape(const VkBufferCreateInfo& a, const VkBufferCreateInfo& b) {
+  return a.size == b.size && a.sharingMode == b.sharingMode && (b.usage & ~a.usage) == 0;
+}
+
+bool fits(const Context& context, const Resource& resource, const SizedResource& size, const Kept& kept) {
+  if (resource.kind == ResourceKind::image) return kept.images.size() == size.count && same_shape(kept.image, image_info(context, resource, size));
+  return kept.buffers.size() == size.count && same_shape(kept.buffer, buffer_info(context, resource, size));
+}
+
+bool is_kept(const Resource& resource) { return resource.lifetime == Lifetime::history || resource.lifetime == Lifetime::persistent; }
+
+// Takes over what `from` has of the same name and shape; false: nothing that fits.
+bool carry(const Context& context, const Carried& from, Index r, Sized& sized) {
+  const Resource& resource = context.plan.resources[r];
+  for (Index other = 0; other < from.plan.resources.size(); ++other) {
+    if (from.plan.resources[other].name != resource.name || from.sized.kept[other] == nullptr) continue;
+    if (!fits(context, resource, sized.resources[r], *from.sized.kept[other]) || !from.may_carry(context, r, other)) return false;
+    sized.kept[r] = from.sized.kept[other];
+    sized.carried[r] = true;
+    for (const UniqueImage& image : sized.kept[r]->images) sized.images.push_back(image.get());
+    for (const UniqueBuffer& buffer : sized.kept[r]->buffers) sized.buffers.push_back(buffer.get());
+    return true;
+  }
+  return false;
 }
 
 void size_image(const Context& context, const Resource& resource, Sized& sized, SizedResource& out) {
@@ -175,18 +219,32 @@ Status size_resources(const Context& context, Sized& sized) {
       size_image(context, resource, sized, out);
     else  // the smallest buffer that vkCmdFillBuffer can fill
       out.bytes = resource.bytes == kNone ? 0 : static_cast<VkDeviceSize>(std::max<int64_t>(evaluate(context, sized, resource.bytes), 4));
+    sized.active.push_back(out.extent);
     if (is_image && out.count != 0) RG_TRY(check_image_limits(context, resource, out));
   }
   return Done{};
 }
 
-Status create_resources(const Context& context, Sized& sized) {
+void active_extents_of_images(const Context& context, Sized& sized) {
   for (Index r = 0; r < context.plan.resources.size(); ++r) {
     const Resource& resource = context.plan.resources[r];
     if (resource.kind == ResourceKind::image)
-      RG_TRY(create_image(context, resource, sized.resources[r], sized));
+      sized.active[r] = {dimension_value(context, sized, resource.width), dimension_value(context, sized, resource.height),
+                         dimension_value(context, sized, resource.depth)};
+  }
+}
+
+Status create_resources(const Context& context, const Carried* from, Sized& sized) {
+  sized.kept.resize(sized.resources.size());
+  sized.carried.resize(sized.resources.size());
+  for (Index r = 0; r < context.plan.resources.size(); ++r) {
+    const Resource& resource = context.plan.resources[r];
+    if (is_kept(resource) && from != nullptr && carry(context, *from, r, sized)) continue;
+    if (is_kept(resource)) sized.kept[r] = std::make_shared<Kept>();
+    if (resource.kind == ResourceKind::image)
+      RG_TRY(create_image(context, resource, sized.resources[r], r, sized));
     else
-      RG_TRY(create_buffer(context, resource, sized.resources[r], sized));
+      RG_TRY(create_buffer(context, resource, sized.resources[r], r, sized));
   }
   sized.host_copies.resize(sized.buffers.size());
   return place_resources(context, sized);

@@ -8,8 +8,22 @@ namespace rg {
 // Evaluates sizes of every resource; no Vulkan objects yet. Fails where the device's limits are exceeded.
 Status size_resources(const Context& context, Sized& sized);
 
-// Creates images and buffers, places and binds them, fills the memory report.
-Status create_resources(const Context& context, Sized& sized);
+// Fills `active` for the extents that are set now.
+void active_extents_of_images(const Context& context, Sized& sized);
+
+// An instance whose history and persistent contents go on in another one.
+struct Carried {
+  const Plan& plan;
+  const Sized& sized;
+  const Context& context;
+  // Between frames both plans have the resource with one owner, and what has to change between them is a layout of whole boundary rows of the new one.
+  bool may_carry(const Context& now, Index resource, Index before) const;
+};
+// The layout of a subresource between two frames of a plan.
+Layout layout_between_frames(const Plan& plan, Ref ref, uint32_t aspects, uint32_t mip, uint32_t layer);
+
+// Creates images and buffers, or takes them over from `from` (may be null), places and binds them, fills the memory report.
+Status create_resources(const Context& context, const Carried* from, Sized& sized);
 
 // A buffer of its own in mapped host memory, for all queues.
 struct HostBuffer {

@@ -178,7 +178,7 @@ Status create_workers(GraphInstance::State& state, const Parallel& parallel) {
 
 void reserve_submits(GraphInstance::State& state) {
   const Plan& plan = state.context.plan;
-  const size_t entries = kMaxExternalSemaphores + 1 + kMaxPlanQueues;
+  const size_t entries = 3 * (1 + kMaxPlanQueues);  // of the prologue, of the instance before, of the heap's last user
   state.submits.reserve(plan.batches.size() + 2);
   state.submit_commands.resize(state.chunks.size());
   state.entry_waits.reserve(entries);
@@ -186,6 +186,8 @@ void reserve_submits(GraphInstance::State& state) {
   state.submit_signals.reserve(plan.signals.size() + 2 + kMaxExternalSemaphores);
   state.waits.reserve(kMaxExternalSemaphores);
   state.signals.reserve(kMaxExternalSemaphores);
+  state.entry_sources.reserve(2);
+  for (FrameSlot& slot : state.slots) slot.sources.reserve(2);
   state.own_commands.reserve(kMaxOwnCommands);
   state.chunk_results.resize(state.chunks.size());
   state.wall_ms.resize(plan.passes.size());

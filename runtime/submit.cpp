@@ -38,7 +38,7 @@ struct FrameValues {
 };
 FrameValues frame_values(const GraphInstance::State& state) {
   FrameValues values{state.submitted, state.submitted};
-  for (size_t q = 0; q + 1 < state.timelines.size(); ++q) values.after.values[1 + q] += state.signals_a_frame[q];
+  for (size_t q = 0; q + 1 < state.timelines->size(); ++q) values.after.values[1 + q] += state.signals_a_frame[q];
   return values;
 }
 
@@ -58,9 +58,9 @@ class SubmitBuilder {
     for (const SemaphoreUse& use : inputs_.waits)
       if (use.import_slot == kNone) state_.submit_waits.push_back(semaphore_info(use));
     const uint64_t value = ++values_.after.values[0];
-    state_.submit_signals.push_back(semaphore_info(state_.timelines[0].get(), value, kAllCommands));
+    state_.submit_signals.push_back(semaphore_info((*state_.timelines)[0].get(), value, kAllCommands));
     finish(empty_submit());
-    state_.entry_waits.push_back(semaphore_info(state_.timelines[0].get(), value, kAllCommands));
+    state_.entry_waits.push_back(semaphore_info((*state_.timelines)[0].get(), value, kAllCommands));
   }
 
   void batch(Index b, const VkCommandBufferSubmitInfo* commands, uint32_t count) {
@@ -79,9 +79,9 @@ class SubmitBuilder {
   bool needs_lead_out() const { return std::any_of(inputs_.signals.begin(), inputs_.signals.end(), [&](const SemaphoreUse& use) { return at_end(use); }); }
   // Queue 0 waits for all queues and says so.
   void lead_out() {
-    for (size_t q = 0; q + 1 < state_.timelines.size(); ++q)
+    for (size_t q = 0; q + 1 < state_.timelines->size(); ++q)
       if (state_.signals_a_frame[q] != 0)
-        state_.submit_waits.push_back(semaphore_info(state_.timelines[1 + q].get(), values_.after.values[1 + q], kAllCommands));
+        state_.submit_waits.push_back(semaphore_info((*state_.timelines)[1 + q].get(), values_.after.values[1 + q], kAllCommands));
     for (const SemaphoreUse& use : inputs_.signals)
       if (at_end(use)) state_.submit_signals.push_back(semaphore_info(use));
     finish(empty_submit());
@@ -94,15 +94,15 @@ class SubmitBuilder {
     for (const Wait& wait : plan_.waits.subspan(batch.first_wait, batch.wait_count)) {
       const uint64_t back = wait.frames_ago * state_.signals_a_frame[wait.queue], before = values_.before.values[1 + wait.queue];
       if (back > before) continue;  // there was no such frame
-      state_.submit_waits.push_back(semaphore_info(state_.timelines[1 + wait.queue].get(), before - back + wait.value, wait.stages));
+      state_.submit_waits.push_back(semaphore_info((*state_.timelines)[1 + wait.queue].get(), before - back + wait.value, wait.stages));
     }
   }
   void plan_signals(const Batch& batch) {
     for (const Signal& signal : plan_.signals.subspan(batch.first_signal, batch.signal_count))
       state_.submit_signals.push_back(
-          semaphore_info(state_.timelines[1 + batch.queue].get(), values_.before.values[1 + batch.queue] + signal.value, signal.stages));
+          semaphore_info((*state_.timelines)[1 + batch.queue].get(), values_.before.values[1 + batch.queue] + signal.value, signal.stages));
     if (!plan_.signals.empty() || &batch != &plan_.batches.back()) return;
-    state_.submit_signals.push_back(semaphore_info(state_.timelines[0].get(), ++values_.after.values[0], kAllCommands));
+    state_.submit_signals.push_back(semaphore_info((*state_.timelines)[0].get(), ++values_.after.values[0], kAllCommands));
   }
   void external_waits(Index b) {
     for (const SemaphoreUse& use : inputs_.waits) {
@@ -221,20 +221,31 @@ Status submit_frame(GraphInstance::State& state, const FrameInputs& inputs, Fram
 }
 
 Status submit_one(GraphInstance::State& state, const SingleSubmit& submit) {
-  const VkSemaphore timeline = state.timelines[0].get();
+  const VkSemaphore timeline = (*state.timelines)[0].get();
   const uint64_t value = state.submitted.values[0];
   const VkCommandBufferSubmitInfo commands = commands_info(submit.commands);
-  const VkSemaphoreSubmitInfo wait = semaphore_info(timeline, value, kAllCommands), signal = semaphore_info(timeline, value + 1, kAllCommands);
+  const VkSemaphoreSubmitInfo signal = semaphore_info(timeline, value + 1, kAllCommands);
+  std::array<VkSemaphoreSubmitInfo, 3 * (1 + kMaxPlanQueues) + 1> waits;
+  auto end = std::copy_n(submit.waits.begin(), std::min(submit.waits.size(), waits.size() - 1), waits.begin());
+  if (submit.chained && value != 0) *end++ = semaphore_info(timeline, value, kAllCommands);
   VkSubmitInfo2 info = empty_submit();
   info.commandBufferInfoCount = 1;
   info.pCommandBufferInfos = &commands;
-  info.waitSemaphoreInfoCount = submit.chained && value != 0 ? 1 : 0;
-  info.pWaitSemaphoreInfos = &wait;
+  info.waitSemaphoreInfoCount = static_cast<uint32_t>(end - waits.begin());
+  info.pWaitSemaphoreInfos = waits.data();
   info.signalSemaphoreInfoCount = 1;
   info.pSignalSemaphoreInfos = &signal;
   RG_TRY(queue_submit(state.context, submit.queue, 1, &info, submit.fence));
   ++state.submitted.values[0];
   return Done{};
+}
+
+void wait_at_entry(GraphInstance::State& state, const std::shared_ptr<Timelines>& timelines, const Moment& moment) {
+  for (size_t i = 0; i < timelines->size(); ++i)
+    if (moment.values[i] != 0) state.entry_waits.push_back(semaphore_info((*timelines)[i].get(), moment.values[i], kAllCommands));
+  if (moment.engine != VK_NULL_HANDLE) state.entry_waits.push_back(semaphore_info(moment.engine, moment.engine_value, kAllCommands));
+  state.entry_barrier = true;
+  if (timelines != state.timelines) state.entry_sources.push_back(timelines);
 }
 
 namespace {
@@ -247,7 +258,8 @@ uint32_t queue_of_family(const Device::State& device, uint32_t family) {
 
 Status submit_part(GraphInstance::State& state, uint32_t queue, size_t part) {
   const bool watched = !state.prologue.fences.empty();
-  RG_TRY(submit_one(state, {queue, state.prologue.commands[part], part != 0, watched ? state.prologue.fences[queue].get() : VkFence(VK_NULL_HANDLE)}));
+  const std::span<const VkSemaphoreSubmitInfo> waits = part == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
+  RG_TRY(submit_one(state, {queue, state.prologue.commands[part], part != 0, waits, watched ? state.prologue.fences[queue].get() : VkFence(VK_NULL_HANDLE)}));
   if (watched) state.prologue.fenced[queue] = true;
   state.prologue.done.values[0] = state.submitted.values[0];
   return Done{};
@@ -279,19 +291,20 @@ Status submit_prologue(GraphInstance::State& state, const Sized& sized) {
     return submitted.error();
   }
   if (!state.context.queues.several) return Done{};
-  state.entry_waits.assign(1, semaphore_info(state.timelines[0].get(), state.submitted.values[0], kAllCommands));
+  // Queues that nothing of the prologue's waits concerns wait for it, and with it for what it has waited for.
+  state.entry_waits.assign(1, semaphore_info((*state.timelines)[0].get(), state.submitted.values[0], kAllCommands));
   return Done{};
 }
 
 Status mend_timelines(GraphInstance::State& state) {
   RG_TRY(wait_for(state, state.submitted));
-  for (size_t q = 0; q + 1 < state.timelines.size(); ++q) {
+  for (size_t q = 0; q + 1 < state.timelines->size(); ++q) {
     uint64_t& value = state.submitted.values[1 + q];
     const uint64_t step = state.signals_a_frame[q];
     if (step == 0 || value % step == 0) continue;
     VkSemaphoreSignalInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO;
-    info.semaphore = state.timelines[1 + q].get();
+    info.semaphore = (*state.timelines)[1 + q].get();
     info.value = (value / step + 1) * step;
     RG_TRY(check(state.context.vk().SignalSemaphore(state.context.device.device, &info), "vkSignalSemaphore", state.context.plan.name));
     value = info.value;

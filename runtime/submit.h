@@ -14,9 +14,13 @@ struct SingleSubmit {
   uint32_t queue = 0;  // in Device::State::queues
   VkCommandBuffer commands = VK_NULL_HANDLE;
   bool chained = false;
+  std::span<const VkSemaphoreSubmitInfo> waits = {};  // besides
   VkFence fence = VK_NULL_HANDLE;
 };
 Status submit_one(GraphInstance::State& state, const SingleSubmit& submit);
+
+// The next frame waits for `moment` on every queue, and begins behind it.
+void wait_at_entry(GraphInstance::State& state, const std::shared_ptr<Timelines>& timelines, const Moment& moment);
 
 // Records and submits the prologue of `sized`, ordered before the next frame on every queue. On failure nothing of it runs any more.
 Status submit_prologue(GraphInstance::State& state, const Sized& sized);

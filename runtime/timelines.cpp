@@ -29,9 +29,9 @@ struct WaitArrays {
 };
 WaitArrays wait_arrays(const GraphInstance::State& state, const Moment& moment) {
   WaitArrays out;
-  for (size_t i = 0; i < state.timelines.size(); ++i) {
+  for (size_t i = 0; i < state.timelines->size(); ++i) {
     if (moment.values[i] == 0) continue;
-    out.semaphores[out.count] = state.timelines[i].get();
+    out.semaphores[out.count] = (*state.timelines)[i].get();
     out.values[out.count++] = moment.values[i];
   }
   if (moment.engine != VK_NULL_HANDLE) {
@@ -73,7 +73,7 @@ Status create_timelines(GraphInstance::State& state) {
   for (size_t i = 0; i < count; ++i) {
     Result<UniqueSemaphore> timeline = create_timeline(state.context);
     if (!timeline) return timeline.error();
-    state.timelines.push_back(std::move(*timeline));
+    state.timelines->push_back(std::move(*timeline));
   }
   for (const Batch& batch : plan.batches)
     for (const Signal& signal : plan.signals.subspan(batch.first_signal, batch.signal_count))
@@ -89,6 +89,12 @@ Status wait_for(const GraphInstance::State& state, const Moment& moment) {
   if (within(state.prologue.done, moment)) RG_TRY(wait_for_fences(context, state.prologue.fences, state.prologue.fenced));
   for (const FrameSlot& slot : state.slots)
     if (within(slot.done, moment)) RG_TRY(wait_for_fences(context, slot.fences, slot.fenced));
+  return Done{};
+}
+
+Status wait_for_entry(GraphInstance::State& state) {
+  for (const VkSemaphoreSubmitInfo& wait : state.entry_waits) RG_TRY(wait_for_semaphores(state.context, 1, &wait.semaphore, &wait.value));
+  state.entry_waits.clear();
   return Done{};
 }
 

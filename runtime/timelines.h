@@ -10,6 +10,9 @@ Status create_timelines(GraphInstance::State& state);
 // Waits on the host. Zeros cost nothing.
 Status wait_for(const GraphInstance::State& state, const Moment& moment);
 
+// Waits on the host for what the next frame would wait for.
+Status wait_for_entry(GraphInstance::State& state);
+
 // False also where the driver cannot say.
 bool reached(const GraphInstance::State& state, const Moment& moment);
 

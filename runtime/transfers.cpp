@@ -270,6 +270,13 @@ Status write_updates(const Context& context, Sized& sized, const FrameInputs& in
   return Done{};
 }
 
+void resize_transfer(const Context& context, const Sized& sized, TransferTable& table) {
+  const TransferKind kind = table.transfer->kind;
+  if (kind != TransferKind::copy_image && kind != TransferKind::blit && kind != TransferKind::resolve) return;
+  table.copies.clear(), table.blits.clear(), table.resolves.clear();  // keeps its room
+  add_regions(context, sized, *table.transfer, table);
+}
+
 void record_transfer(const Context& context, const Sized& sized, const std::vector<Import>& imports, const TransferTable& transfer,
                      VkCommandBuffer commands, uint64_t frame) {
   const Recorder recorder{context, sized, imports, transfer, commands, frame};

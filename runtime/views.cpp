@@ -106,7 +106,7 @@ Result<ViewRef> create_views(const Context& context, Sized& sized, const ViewReq
   if (resource.count == 0) return add_imported(context, sized, request, info);
   const ViewRef ref{request.ref, static_cast<uint32_t>(sized.views.size()), kNone, true};
   for (uint32_t copy = 0; copy < resource.count; ++copy) {
-    const VkImage image = sized.images[resource.first + copy].get();
+    const VkImage image = sized.images[resource.first + copy];
     Result<UniqueView> view = create_view(context, info, usage_info(request), image, context.plan.resources[request.ref.resource].name);
     if (!view) return view.error();
     sized.views.push_back(std::move(*view));

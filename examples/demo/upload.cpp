@@ -126,11 +126,25 @@ Status run_copies(Device& device, const Staging& staging) {
 
 }  // namespace
 
+namespace {
+
+// Whatever queues the plan chooses may use it.
+template <class Info>
+void share(const Device& device, Info& info) {
+  if (device.queue_families().size() < 2) return;
+  info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+  info.queueFamilyIndexCount = static_cast<uint32_t>(device.queue_families().size());
+  info.pQueueFamilyIndices = device.queue_families().data();
+}
+
+}  // namespace
+
 Result<GpuBuffer> make_buffer(Device& device, VkDeviceSize size, VkBufferUsageFlags usage, bool host_visible) {
   const DeviceFunctions& vk = device.vk();
   auto info = vulkan_struct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
   info.size = size;
   info.usage = usage;
+  share(device, info);
   VkBuffer handle = VK_NULL_HANDLE;
   if (const VkResult result = vk.CreateBuffer(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS)
     return driver_error("vkCreateBuffer", result);
@@ -160,6 +174,7 @@ Result<GpuImage> make_image(Device& device, const ImageShape& shape) {
   info.arrayLayers = shape.layers;
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = shape.usage;
+  share(device, info);
   VkImage handle = VK_NULL_HANDLE;
   if (const VkResult result = vk.CreateImage(device.handle(), &info, nullptr, &handle); result != VK_SUCCESS)
     return driver_error("vkCreateImage", result);
