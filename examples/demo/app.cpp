@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "examples/demo/gltf.h"
+#include "examples/demo/inspect.h"
 #include "examples/demo/options.h"
 #include "examples/demo/plaza.h"
 #include "examples/demo/png.h"
@@ -121,15 +122,36 @@ Status measure_frame(Renderer& renderer, const Scene& scene, const DemoOptions& 
   return Done{};
 }
 
+RendererOptions renderer_options(const DemoOptions& options) {
+  RendererOptions renderer{.width = options.width, .height = options.height};
+  renderer.poison = options.poison, renderer.serial = options.serial, renderer.threads = options.threads;
+  return renderer;
+}
+
+// Dumps, a trace, a profile: an instance of its own, whose passes are timed one by one where the driver cannot.
+Status look_inside(Device& device, const Scene& scene, const DemoOptions& options, const Shot& shot) {
+  if (options.dumps.empty() && options.trace.empty() && options.profile.empty()) return Done{};
+  RendererOptions wanted = renderer_options(options);
+  wanted.debug_readback = true;
+  wanted.submit_per_pass = true;
+  auto renderer = Renderer::create(device, scene, wanted);
+  if (!renderer) return renderer.error();
+  uint32_t number = 0;
+  const auto draw = [&] { return renderer->render(make_frame(scene, *shot.camera, settings_for(options, shot, number++))); };
+  if (Status drawn = draw(); !drawn) return drawn;  // the first frame compiles
+  return inspect(*renderer, options, draw);
+}
+
 Status render_all(Device& device, const Scene& scene, const DemoOptions& options) {
   auto shots = choose_shots(scene, options);
   if (!shots) return shots.error();
-  auto renderer = Renderer::create(device, scene, {.width = options.width, .height = options.height});
+  auto renderer = Renderer::create(device, scene, renderer_options(options));
   if (!renderer) return renderer.error();
   for (const Shot& shot : *shots)
     if (Status taken = take(*renderer, scene, options, shot); !taken) return taken;
   Measurements measured;
   if (Status done = measure_frame(*renderer, scene, options, shots->front(), measured); !done) return done;
+  if (Status done = look_inside(device, scene, options, shots->front()); !done) return done;
   if (Status done = measure_passes(device, scene, options, shots->front(), measured); !done) return done;
   std::fputs(format_report(frame::plan(), measured, std::string(device.name())).c_str(), stdout);
   return Done{};

@@ -20,6 +20,12 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--device", options.device, "number from --list-devices; -1 takes the best")->capture_default_str();
   app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
   app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
+  app.add_option("--dump", options.dumps, "what PASS leaves in a resource, as PNG and EXR in --out; may be repeated")->type_name("PASS.RESOURCE");
+  app.add_option("--trace", options.trace, "passes on a time line, for chrome://tracing or Perfetto")->type_name("FILE");
+  app.add_option("--profile", options.profile, "measured times of passes, for `rgc --profile`")->type_name("FILE");
+  app.add_option("--threads", options.threads, "threads that record a frame")->check(CLI::Range(1, 64))->capture_default_str();
+  app.add_flag("--serial", options.serial, "every pass waits for all before it");
+  app.add_flag("--poison", options.poison, "fill transients with a pattern before their first use");
   app.add_flag("--list-devices", options.list_devices, "print the Vulkan devices and end");
   try {
     app.parse(argc, argv);

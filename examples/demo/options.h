@@ -14,6 +14,10 @@ struct DemoOptions {
   std::string camera;              // empty: the scene's first
   std::vector<std::string> views;  // what to show; empty: the final picture of every camera and all debug views of the first
   std::string out = "out";
+  std::vector<std::string> dumps;  // PASS.resource
+  std::string trace, profile;      // files; empty: none
+  uint32_t threads = 1;
+  bool serial = false, poison = false;
   int device = -1;
   bool validate = false, list_devices = false;
 };

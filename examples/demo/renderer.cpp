@@ -132,6 +132,8 @@ GraphOptions graph_options(const RendererOptions& options) {
   graph.poison = options.poison;
   graph.debug_readback = options.debug_readback;
   graph.submit_per_pass = options.submit_per_pass;
+  graph.serial = options.serial;
+  graph.threads = options.threads;
   return graph;
 }
 

@@ -17,6 +17,8 @@ struct RendererOptions {
   bool poison = false;
   bool debug_readback = false;
   bool submit_per_pass = false;
+  bool serial = false;
+  uint32_t threads = 1;
 };
 
 // rgba8, rows from the top.
