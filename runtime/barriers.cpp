@@ -93,8 +93,10 @@ void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelin
   }
 }
 void repeat_release(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
-  if (!context.device.validating || in.src_queue == kNone || context.queues.of_group[group] == in.src_queue) return;
-  if (changes_family(context, in.src_queue, in.dst_queue)) return;
+  if (!context.device.validating || in.src_queue == kNone) return;
+  const bool releases = context.queues.of_group[group] == in.src_queue, transfers = changes_family(context, in.src_queue, in.dst_queue);
+  if (releases && transfers && out.dstStageMask == 0) out.dstStageMask = out.srcStageMask;  // it loses a release that nothing comes after
+  if (releases || transfers) return;
   auto same = [&](const ImageBarrier& other) { return other.image == in.image && other.range == in.range && other.dst_queue == in.dst_queue; };
   name_released_writes(context.plan.image_barriers, in.src_queue, same, out.srcStageMask, out.srcAccessMask);
 }

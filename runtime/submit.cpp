@@ -90,17 +90,20 @@ class SubmitBuilder {
   const Moment& after() const { return values_.after; }
 
  private:
+  // The validation layer loses transitions between a barrier's second scope and a semaphore that names no more than that: while it watches,
+  // semaphores name all commands.
+  VkPipelineStageFlags2 watched(Stages stages) const { return state_.context.device.validating ? kAllCommands : stages; }
   void plan_waits(const Batch& batch) {
     for (const Wait& wait : plan_.waits.subspan(batch.first_wait, batch.wait_count)) {
       const uint64_t back = wait.frames_ago * state_.signals_a_frame[wait.queue], before = values_.before.values[1 + wait.queue];
       if (back > before) continue;  // there was no such frame
-      state_.submit_waits.push_back(semaphore_info((*state_.timelines)[1 + wait.queue].get(), before - back + wait.value, wait.stages));
+      state_.submit_waits.push_back(semaphore_info((*state_.timelines)[1 + wait.queue].get(), before - back + wait.value, watched(wait.stages)));
     }
   }
   void plan_signals(const Batch& batch) {
     for (const Signal& signal : plan_.signals.subspan(batch.first_signal, batch.signal_count))
       state_.submit_signals.push_back(
-          semaphore_info((*state_.timelines)[1 + batch.queue].get(), values_.before.values[1 + batch.queue] + signal.value, signal.stages));
+          semaphore_info((*state_.timelines)[1 + batch.queue].get(), values_.before.values[1 + batch.queue] + signal.value, watched(signal.stages)));
     if (!plan_.signals.empty() || &batch != &plan_.batches.back()) return;
     state_.submit_signals.push_back(semaphore_info((*state_.timelines)[0].get(), ++values_.after.values[0], kAllCommands));
   }
