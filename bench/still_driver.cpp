@@ -10,29 +10,28 @@
 namespace rg::bench {
 namespace {
 
-uint64_t calls = 0;     // only while counted
-bool counted = false;
+uint64_t calls = 0;
 uint64_t handles = 16;  // of everything that is created
 
 // One function of the table: nothing, success, or a handle where the last argument asks for one.
-template <class Function>
+template <class Function, bool counted>
 struct Still;
-template <class Result, class... Arguments>
-struct Still<Result (*)(Arguments...)> {
+template <class Result, class... Arguments, bool counted>
+struct Still<Result (*)(Arguments...), counted> {
   static Result call(Arguments...) {
-    if (counted) ++calls;
+    if constexpr (counted) ++calls;
     if constexpr (!std::is_void_v<Result>) return Result{};
   }
 };
-template <class Info, class Handle>
-struct Still<VkResult (*)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*)> {
+template <class Info, class Handle, bool counted>
+struct Still<VkResult (*)(VkDevice, const Info*, const VkAllocationCallbacks*, Handle*), counted> {
   static VkResult call(VkDevice, const Info*, const VkAllocationCallbacks*, Handle* handle) {
     *handle = reinterpret_cast<Handle>(++handles);
     return VK_SUCCESS;
   }
 };
-template <class Info>
-struct Still<VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, const VkAllocationCallbacks*, VkPipeline*)> {
+template <class Info, bool counted>
+struct Still<VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, const VkAllocationCallbacks*, VkPipeline*), counted> {
   static VkResult call(VkDevice, VkPipelineCache, uint32_t count, const Info*, const VkAllocationCallbacks*, VkPipeline* out) {
     for (uint32_t i = 0; i < count; ++i) out[i] = reinterpret_cast<VkPipeline>(++handles);
     return VK_SUCCESS;
@@ -94,10 +93,11 @@ VkResult VKAPI_CALL image_formats(VkPhysicalDevice, VkFormat, VkImageType, VkIma
   return VK_SUCCESS;
 }
 
+template <bool counted>
 const std::map<std::string, PFN_vkVoidFunction>& table() {
   static const std::map<std::string, PFN_vkVoidFunction> functions = [] {
     std::map<std::string, PFN_vkVoidFunction> out;
-#define RG_STILL(name) out["vk" #name] = reinterpret_cast<PFN_vkVoidFunction>(Still<PFN_vk##name>::call);
+#define RG_STILL(name) out["vk" #name] = reinterpret_cast<PFN_vkVoidFunction>(Still<PFN_vk##name, counted>::call);
 #define RG_INSTANCE RG_STILL
 #define RG_DEVICE RG_STILL
 #include "runtime/functions.def"
@@ -113,32 +113,27 @@ const std::map<std::string, PFN_vkVoidFunction>& table() {
   return functions;
 }
 
-PFN_vkVoidFunction find(const char* name) {
-  const auto row = table().find(name);
-  return row == table().end() ? nullptr : row->second;
+template <bool counted>
+PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice, const char* name) {
+  const auto row = table<counted>().find(name);
+  return row == table<counted>().end() ? nullptr : row->second;
 }
-PFN_vkVoidFunction VKAPI_CALL device_function(VkDevice, const char* name) { return find(name); }
+template <bool counted>
 PFN_vkVoidFunction VKAPI_CALL instance_function(VkInstance, const char* name) {
-  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(device_function);
-  return find(name);
+  if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) return reinterpret_cast<PFN_vkVoidFunction>(device_function<counted>);
+  return device_function<counted>(VK_NULL_HANDLE, name);
 }
 
 }  // namespace
 
-Result<Device> still_device() {
+Result<Device> still_device(bool counted) {
   ExternalDevice external;
   external.device = reinterpret_cast<VkDevice>(uintptr_t{1});
   external.queue = reinterpret_cast<VkQueue>(uintptr_t{2});
-  external.get_instance_proc_addr = instance_function;
+  external.get_instance_proc_addr = counted ? instance_function<true> : instance_function<false>;
   return Device::adopt(external);
 }
 
-uint64_t still_calls(Device&, const std::function<void()>& work) {
-  calls = 0;
-  counted = true;
-  work();
-  counted = false;
-  return calls;
-}
+uint64_t still_calls() { return calls; }
 
 }  // namespace rg::bench

@@ -1,15 +1,12 @@
 // A Vulkan driver whose functions do nothing and succeed: what is left of a frame is the cost of who calls them.
 #pragma once
 
-#include <functional>
-
 #include "runtime/device.h"
 
 namespace rg::bench {
 
-Result<Device> still_device();
-
-// How many of its functions `work` calls.
-uint64_t still_calls(Device& device, const std::function<void()>& work);
+// `counted`: functions add to still_calls().
+Result<Device> still_device(bool counted = false);
+uint64_t still_calls();
 
 }  // namespace rg::bench

@@ -218,6 +218,11 @@ void create_barriers(const Context& context, Sized& sized) {
     fill_infos(table);
   }
   if (context.poison) add_poison(context, sized);
+  for (const GroupTable& table : sized.groups) {
+    const VkDependencyInfo& info = table.infos[0];  // alike in every phase but for handles
+    const bool empty = info.memoryBarrierCount + info.bufferMemoryBarrierCount + info.imageMemoryBarrierCount == 0;
+    sized.group_rows.push_back({empty ? nullptr : table.infos.data(), table.period, table.poison});
+  }
 }
 
 void update_imported_barriers(const Context& context, Sized& sized, const std::vector<Import>& imports) {
@@ -231,10 +236,9 @@ void update_imported_barriers(const Context& context, Sized& sized, const std::v
 }
 
 void record_group(const Context& context, const Sized& sized, Index group, VkCommandBuffer commands, uint64_t frame) {
-  const GroupTable& table = sized.groups[group];
-  if (table.poison != kNone) record_poison(context, sized, sized.poisons[table.poison], commands);
-  const VkDependencyInfo& info = table.infos[frame % table.period];
-  if (info.memoryBarrierCount + info.bufferMemoryBarrierCount + info.imageMemoryBarrierCount != 0) context.vk().CmdPipelineBarrier2(commands, &info);
+  const GroupRow& row = sized.group_rows[group];
+  if (row.poison != kNone) record_poison(context, sized, sized.poisons[row.poison], commands);
+  if (row.infos != nullptr) context.vk().CmdPipelineBarrier2(commands, row.infos + row_of(frame, row.period));
 }
 
 }  // namespace rg

@@ -91,6 +91,7 @@ Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Object
   RG_TRY(create_sets(context, objects, *sized));
   // Beyond this point offsets are fixed: hand-offs of shared memory follow from them.
   create_barriers(context, *sized);
+  fill_rows(context, objects, *sized);
   return sized;
 }
 

@@ -67,6 +67,7 @@ struct SizedResource {
 
 // The physical copy that is `age` frames old at `frame`.
 constexpr uint32_t copy_index(const SizedResource& resource, uint32_t age, uint64_t frame) {
+  if (resource.count == 1) return resource.first;
   return resource.first + static_cast<uint32_t>((frame + resource.count - age % resource.count) % resource.count);
 }
 
@@ -101,6 +102,9 @@ struct ViewRef {  // one view per physical copy, or an imported one
   Index imported = kNone;  // in Sized::imported_views
   bool exists = true;      // false: its mips or layers vanished at these extents
 };
+
+// Row of a table that repeats every `period` frames; a division costs more than a Vulkan call.
+constexpr uint64_t row_of(uint64_t frame, uint32_t period) { return period == 1 ? 0 : frame % period; }
 
 struct GroupTable {  // one BarrierGroup as Vulkan sees it, once per combination of physical copies
   uint32_t period = 1;
@@ -140,7 +144,10 @@ struct RenderingTable {
   uint32_t layers = 1, view_mask = 0, color_count = 0;
   bool has_depth = false, has_stencil = false;
   std::vector<ViewRef> views, resolve_views;           // colours, then depth, then stencil
-  std::vector<VkRenderingAttachmentInfo> attachments;  // same order; views are filled in every frame
+  std::vector<VkRenderingAttachmentInfo> attachments;  // same order
+  bool fixed = true;                                   // the views are the same in every frame, else they are filled in
+  VkRenderingInfo info{};                              // points at `attachments`
+  VkViewport viewport{};
   // Classic form, where recorded.
   std::vector<FramebufferEntry> framebuffers;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;  // of this frame
@@ -180,14 +187,29 @@ struct TransferTable {
 };
 
 struct PassTable {
-  bool runs = true;   // every mip that it touches exists
-  bool idle = false;  // at the active extents one does not
+  bool runs = true;  // every mip that it touches exists
   PassInfo info;
   RenderingTable rendering;
   SetTable set;
   uint32_t x = 1, y = 1, z = 1;  // groups, or vertices and instances
   VkDeviceSize arguments_offset = 0;
   std::vector<TransferTable> transfers;
+};
+
+// What every frame reads of a pass and of a barrier group, packed: a frame walks these and little else.
+struct PassRow {
+  uint64_t guard = 0;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  Index host_slot = kNone;
+  uint32_t module = 0;
+  WorkKind work = WorkKind::none;
+  bool runs = true;
+  bool has_rendering = false, classic = false, fixed_views = false, has_set = false, has_engine_set = false;
+};
+struct GroupRow {
+  const VkDependencyInfo* infos = nullptr;  // null: nothing to record, whatever the frame
+  uint32_t period = 1;
+  Index poison = kNone;
 };
 
 // Host-written memory: one section a frame in flight with the parameter blocks, then the updates.
@@ -246,7 +268,9 @@ struct Sized {
   std::vector<ImportedImageBarrier> imported_images;
   std::vector<ImportedBufferBarrier> imported_buffers;
   std::vector<PoisonTable> poisons;
+  std::vector<GroupRow> group_rows;
   std::vector<PassTable> passes;
+  std::vector<PassRow> rows;
   std::vector<TransferRef> updates;   // transfers whose bytes the host brings
   std::vector<Index> imported_sets;   // passes whose sets hold imports
   std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps, laid end to end

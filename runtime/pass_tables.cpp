@@ -77,16 +77,35 @@ bool mips_exist_now(const Context& context, const Sized& sized, const Pass& pass
 
 }  // namespace
 
+void fill_rows(const Context& context, const Objects& objects, Sized& sized) {
+  for (size_t i = 0; i < sized.passes.size(); ++i) {
+    const Pass& pass = context.plan.passes[i];
+    const PassTable& table = sized.passes[i];
+    PassRow& row = sized.rows.emplace_back();
+    row.guard = pass.guard;
+    row.pipeline = objects.passes[i].pipeline.get();
+    row.host_slot = pass.host_slot;
+    row.module = objects.passes[i].module_number;
+    row.work = pass.work.kind;
+    row.runs = table.runs;
+    row.has_rendering = pass.rendering != kNone;
+    row.classic = table.info.render_pass != VK_NULL_HANDLE;
+    row.fixed_views = table.rendering.fixed;
+    row.has_set = table.set.period != 0;
+    row.has_engine_set = pass.engine_set != kNone;
+  }
+}
+
 void resize_pass(const Context& context, Sized& sized, Index index) {
   const Pass& pass = context.plan.passes[index];
   PassTable& table = sized.passes[index];
-  table.idle = !mips_exist_now(context, sized, pass);
+  sized.rows[index].runs = table.runs && mips_exist_now(context, sized, pass);
   fill_work(context, sized, pass.work, table);
   table.info.extent = {table.x, table.y};
   if (pass.rendering != kNone) {
     const Rendering& rendering = context.plan.renderings[pass.rendering];
     table.info.extent = {side(context, sized, rendering.width), side(context, sized, rendering.height)};
-    table.rendering.area.extent = table.info.extent;
+    cover(table.rendering, table.info.extent);
   }
   for (TransferTable& transfer : table.transfers) resize_transfer(context, sized, transfer);
 }

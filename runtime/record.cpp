@@ -11,58 +11,50 @@ namespace rg {
 namespace {
 
 void begin_label(const FrameRecording& r, const std::string& name) {
-  if (r.state.context.vk().CmdBeginDebugUtilsLabelEXT == nullptr) return;
   VkDebugUtilsLabelEXT label{};
   label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
   label.pLabelName = name.c_str();
-  r.state.context.vk().CmdBeginDebugUtilsLabelEXT(r.commands, &label);
+  r.vk.CmdBeginDebugUtilsLabelEXT(r.commands, &label);
 }
 
 void end_label(const FrameRecording& r) {
-  if (r.state.context.vk().CmdEndDebugUtilsLabelEXT != nullptr) r.state.context.vk().CmdEndDebugUtilsLabelEXT(r.commands);
+  if (r.vk.CmdEndDebugUtilsLabelEXT != nullptr) r.vk.CmdEndDebugUtilsLabelEXT(r.commands);
 }
 
-void open_module(FrameRecording& r, const PassObjects& pass) {
-  if (r.module == pass.module_number) return;
-  close_module(r);
-  if (pass.module_number != 0) begin_label(r, pass.module);
-  r.module = pass.module_number;
+void open_labels(FrameRecording& r, Index index, const PassRow& row) {
+  const PassObjects& pass = r.state.objects.passes[index];
+  if (r.module != row.module) {
+    close_module(r);
+    if (row.module != 0) begin_label(r, pass.module);
+    r.module = row.module;
+  }
+  begin_label(r, pass.name);
 }
 
 // Within a rendering scope a query may not begin outside and end inside; around the whole pass it always may.
 void begin_statistics(const FrameRecording& r, Index pass) {
-  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdBeginQuery(r.commands, r.statistics, pass, 0);
+  if (r.statistics != VK_NULL_HANDLE) r.vk.CmdBeginQuery(r.commands, r.statistics, pass, 0);
 }
 void end_statistics(const FrameRecording& r, Index pass) {
-  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdEndQuery(r.commands, r.statistics, pass);
+  if (r.statistics != VK_NULL_HANDLE) r.vk.CmdEndQuery(r.commands, r.statistics, pass);
 }
 
 void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index query) {
-  if (r.queries != VK_NULL_HANDLE) r.state.context.vk().CmdWriteTimestamp2(r.commands, stage, r.queries, query);
+  if (r.queries != VK_NULL_HANDLE) r.vk.CmdWriteTimestamp2(r.commands, stage, r.queries, query);
 }
 
 void bind_engine_set(const FrameRecording& r, const Pass& pass, const PassObjects& objects) {
-  if (pass.engine_set == kNone) return;
   const auto role = static_cast<uint32_t>(r.state.context.plan.engine_sets[pass.engine_set].role);
-  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0,
+  r.vk.CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0,
                                              nullptr);
 }
 
 VkDescriptorSet bind_pass_set(const FrameRecording& r, const PassObjects& objects, PassTable& table) {
-  if (table.set.period == 0) return VK_NULL_HANDLE;
-  const VkDescriptorSet set = table.set.sets[r.frame % table.set.period];
-  const auto section = static_cast<uint32_t>(r.frame % r.state.context.frames_in_flight * r.state.sized->ring.section);
-  for (size_t i = 0; i < table.set.block_offsets.size(); ++i) table.set.dynamic_offsets[i] = section + table.set.block_offsets[i];
-  r.state.context.vk().CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), 1, 1, &set,
+  const VkDescriptorSet set = table.set.sets[row_of(r.frame, table.set.period)];
+  for (size_t i = 0; i < table.set.block_offsets.size(); ++i) table.set.dynamic_offsets[i] = r.section + table.set.block_offsets[i];
+  r.vk.CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), 1, 1, &set,
                                              static_cast<uint32_t>(table.set.dynamic_offsets.size()), table.set.dynamic_offsets.data());
   return set;
-}
-
-void set_viewport(const FrameRecording& r, const RenderingTable& rendering) {
-  const VkExtent2D extent = rendering.area.extent;
-  const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
-  r.state.context.vk().CmdSetViewport(r.commands, 0, 1, &viewport);
-  r.state.context.vk().CmdSetScissor(r.commands, 0, 1, &rendering.area);
 }
 
 BufferSpan work_buffer(const FrameRecording& r, Ref ref, VkDeviceSize offset) {
@@ -85,26 +77,25 @@ void draw_indirect_count(const FrameRecording& r, Draw draw, const Work& work, c
 }
 
 void dispatch(const FrameRecording& r, const PassTable& table) {
-  if (table.x != 0 && table.y != 0 && table.z != 0) r.state.context.vk().CmdDispatch(r.commands, table.x, table.y, table.z);
+  if (table.x != 0 && table.y != 0 && table.z != 0) r.vk.CmdDispatch(r.commands, table.x, table.y, table.z);
 }
 
 void dispatch_indirect(const FrameRecording& r, const Work& work, const PassTable& table) {
   const BufferSpan arguments = work_buffer(r, work.arguments, table.arguments_offset);
-  r.state.context.vk().CmdDispatchIndirect(r.commands, arguments.buffer, arguments.offset);
+  r.vk.CmdDispatchIndirect(r.commands, arguments.buffer, arguments.offset);
 }
 
-void call_host(const FrameRecording& r, const Pass& pass, const PassTable& table, VkDescriptorSet set) {
-  Recording recording{r.state.context.vk(), r.commands, table.info, set};
-  r.inputs.callbacks[pass.host_slot](r.inputs.user, recording);
+void call_host(const FrameRecording& r, const PassRow& row, const PassTable& table, VkDescriptorSet set) {
+  Recording recording{r.vk, r.commands, table.info, set};
+  r.inputs.callbacks[row.host_slot](r.inputs.user, recording);
 }
 
-void record_work(const FrameRecording& r, const Pass& pass, const PassTable& table, VkDescriptorSet set) {
-  const DeviceFunctions& vk = r.state.context.vk();
+void record_work(const FrameRecording& r, const Pass& pass, const PassTable& table) {
+  const DeviceFunctions& vk = r.vk;
   switch (pass.work.kind) {
     case WorkKind::none:
-      return;
     case WorkKind::host:
-      return call_host(r, pass, table, set);
+      return;
     case WorkKind::draw:
       return vk.CmdDraw(r.commands, table.x, table.y, 0, 0);
     case WorkKind::draw_indirect:
@@ -126,31 +117,44 @@ void record_work(const FrameRecording& r, const Pass& pass, const PassTable& tab
   }
 }
 
-void record_body(const FrameRecording& r, const Pass& pass, const PassObjects& objects, PassTable& table) {
-  const Context& context = r.state.context;
-  if (pass.rendering != kNone) {
-    begin_rendering(context, *r.state.sized, table, r.commands, r.frame);
-    set_viewport(r, table.rendering);
-  }
-  if (objects.pipeline) context.vk().CmdBindPipeline(r.commands, objects.bind_point, objects.pipeline.get());
-  bind_engine_set(r, pass, objects);
-  record_work(r, pass, table, bind_pass_set(r, objects, table));
-  if (pass.rendering != kNone) end_rendering(context, table, r.commands);
+void begin_attachments(const FrameRecording& r, const PassRow& row, PassTable& table) {
+  if (row.classic || !row.fixed_views)
+    begin_rendering(r.state.context, *r.state.sized, table, r.commands, r.frame);
+  else
+    r.vk.CmdBeginRendering(r.commands, &table.rendering.info);
+  r.vk.CmdSetViewport(r.commands, 0, 1, &table.rendering.viewport);
+  r.vk.CmdSetScissor(r.commands, 0, 1, &table.rendering.area);
+}
+
+void end_attachments(const FrameRecording& r, const PassRow& row) {
+  row.classic ? r.vk.CmdEndRenderPass(r.commands) : r.vk.CmdEndRendering(r.commands);
+}
+
+void record_body(const FrameRecording& r, Index index, const PassRow& row) {
+  PassTable& table = r.state.sized->passes[index];
+  const PassObjects& objects = r.state.objects.passes[index];
+  if (row.has_rendering) begin_attachments(r, row, table);
+  if (row.pipeline != VK_NULL_HANDLE) r.vk.CmdBindPipeline(r.commands, objects.bind_point, row.pipeline);
+  if (row.has_engine_set) bind_engine_set(r, r.state.context.plan.passes[index], objects);
+  const VkDescriptorSet set = row.has_set ? bind_pass_set(r, objects, table) : VkDescriptorSet(VK_NULL_HANDLE);
+  if (row.work == WorkKind::host)
+    call_host(r, row, table, set);
+  else if (row.work != WorkKind::none)
+    record_work(r, r.state.context.plan.passes[index], table);
+  if (row.has_rendering) end_attachments(r, row);
 }
 
 void record_pass(FrameRecording& r, Index index) {
-  const Pass& pass = r.state.context.plan.passes[index];
-  const PassObjects& objects = r.state.objects.passes[index];
-  PassTable& table = r.state.sized->passes[index];
-  open_module(r, objects);
-  begin_label(r, objects.name);
+  const PassRow& row = r.state.sized->rows[index];
+  const bool labels = r.vk.CmdBeginDebugUtilsLabelEXT != nullptr;
+  if (labels) open_labels(r, index, row);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
   begin_statistics(r, index);
-  if (table.runs && !table.idle && (pass.guard & ~r.inputs.conditions) == 0) record_body(r, pass, objects, table);
+  if (row.runs && (row.guard & ~r.inputs.conditions) == 0) record_body(r, index, row);
   end_statistics(r, index);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
   if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);
-  end_label(r);
+  if (labels) end_label(r);
   if (r.state.context.serial) wait_for_all(r);
 }
 
@@ -167,7 +171,7 @@ void wait_for_all(const FrameRecording& r) {
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   info.memoryBarrierCount = 1;
   info.pMemoryBarriers = &barrier;
-  r.state.context.vk().CmdPipelineBarrier2(r.commands, &info);
+  r.vk.CmdPipelineBarrier2(r.commands, &info);
 }
 
 FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot, VkCommandBuffer commands, Index queue) {
@@ -177,14 +181,15 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
   const bool timed = can_reset && row.timestamp_bits != 0 && (context.device.host_query_reset || (row.flags & VK_QUEUE_COMPUTE_BIT) != 0);
   const bool counted = can_reset && (row.flags & VK_QUEUE_GRAPHICS_BIT) != 0;
   return {state, inputs, commands, state.frame, timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
-          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE), 0};
+          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE), 0, context.vk(),
+          static_cast<uint32_t>(state.frame % context.frames_in_flight * state.sized->ring.section)};
 }
 
 void reset_queries(const FrameRecording& r) {
   if (r.state.context.device.host_query_reset) return;
   const auto passes = static_cast<uint32_t>(r.state.context.plan.passes.size());
-  if (r.queries != VK_NULL_HANDLE) r.state.context.vk().CmdResetQueryPool(r.commands, r.queries, 0, 2 * passes);
-  if (r.statistics != VK_NULL_HANDLE) r.state.context.vk().CmdResetQueryPool(r.commands, r.statistics, 0, passes);
+  if (r.queries != VK_NULL_HANDLE) r.vk.CmdResetQueryPool(r.commands, r.queries, 0, 2 * passes);
+  if (r.statistics != VK_NULL_HANDLE) r.vk.CmdResetQueryPool(r.commands, r.statistics, 0, passes);
 }
 
 void close_module(FrameRecording& r) {

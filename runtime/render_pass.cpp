@@ -245,6 +245,36 @@ Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass) 
   return UniqueRenderPass(context.vk(), context.device.device, handle);
 }
 
+namespace {
+
+void fill_views(const Sized& sized, RenderingTable& table, uint64_t frame) {
+  for (size_t i = 0; i < table.attachments.size(); ++i) {
+    table.attachments[i].imageView = view_at(sized, table.views[i], frame);
+    table.attachments[i].resolveImageView = view_at(sized, table.resolve_views[i], frame);
+  }
+}
+
+bool same_in_every_frame(const Sized& sized, const ViewRef& view) {
+  return view.ref.resource == kNone || (view.imported == kNone && sized.resources[view.ref.resource].count == 1);
+}
+
+void fill_info(const Sized& sized, RenderingTable& table) {
+  for (const ViewRef& view : table.views) table.fixed &= same_in_every_frame(sized, view);
+  for (const ViewRef& view : table.resolve_views) table.fixed &= same_in_every_frame(sized, view);
+  if (table.fixed) fill_views(sized, table, 0);
+  VkRenderingInfo& info = table.info;
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.layerCount = table.layers;
+  info.viewMask = table.view_mask;
+  info.colorAttachmentCount = table.color_count;
+  info.pColorAttachments = table.attachments.data();
+  info.pDepthAttachment = table.has_depth ? &table.attachments[table.color_count] : nullptr;
+  info.pStencilAttachment = table.has_stencil ? &table.attachments[table.color_count + (table.has_depth ? 1 : 0)] : nullptr;
+  cover(table, table.area.extent);
+}
+
+}  // namespace
+
 Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass) {
   RenderingTable& table = pass.rendering;
   table.area.extent = pass.info.extent;
@@ -257,7 +287,13 @@ Status create_rendering(const Context& context, Sized& sized, const Rendering& r
   if (table.has_depth) RG_TRY(add_attachment(context, sized, rendering, rendering.depth, pass));
   if (table.has_stencil) RG_TRY(add_attachment(context, sized, rendering, rendering.stencil, pass));
   list_framebuffer_views(context, rendering, table);
+  fill_info(sized, table);
   return Done{};
+}
+
+void cover(RenderingTable& table, VkExtent2D extent) {
+  table.area.extent = table.info.renderArea.extent = extent;
+  table.viewport = {0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
 }
 
 namespace {
@@ -320,21 +356,8 @@ void begin_classic(const Context& context, PassTable& pass, VkCommandBuffer comm
 }
 
 void begin_dynamic(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame) {
-  RenderingTable& table = pass.rendering;
-  for (size_t i = 0; i < table.attachments.size(); ++i) {
-    table.attachments[i].imageView = view_at(sized, table.views[i], frame);
-    table.attachments[i].resolveImageView = view_at(sized, table.resolve_views[i], frame);
-  }
-  VkRenderingInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea = table.area;
-  info.layerCount = table.layers;
-  info.viewMask = table.view_mask;
-  info.colorAttachmentCount = table.color_count;
-  info.pColorAttachments = table.attachments.data();
-  info.pDepthAttachment = table.has_depth ? &table.attachments[table.color_count] : nullptr;
-  info.pStencilAttachment = table.has_stencil ? &table.attachments[table.color_count + (table.has_depth ? 1 : 0)] : nullptr;
-  context.vk().CmdBeginRendering(commands, &info);
+  if (!pass.rendering.fixed) fill_views(sized, pass.rendering, frame);
+  context.vk().CmdBeginRendering(commands, &pass.rendering.info);
 }
 
 }  // namespace
@@ -350,13 +373,6 @@ void begin_rendering(const Context& context, const Sized& sized, PassTable& pass
     begin_classic(context, pass, commands);
   else
     begin_dynamic(context, sized, pass, commands, frame);
-}
-
-void end_rendering(const Context& context, const PassTable& pass, VkCommandBuffer commands) {
-  if (pass.info.render_pass != VK_NULL_HANDLE)
-    context.vk().CmdEndRenderPass(commands);
-  else
-    context.vk().CmdEndRendering(commands);
 }
 
 }  // namespace rg

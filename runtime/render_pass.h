@@ -21,11 +21,13 @@ Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass);
 // Views and attachment infos; pass.info.extent is the render area.
 Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass);
 
+// The render area and the viewport.
+void cover(RenderingTable& table, VkExtent2D extent);
+
 // Only where classic render passes are recorded: finds or creates the framebuffer of every pass for this frame.
 Status update_framebuffers(const Context& context, Sized& sized, uint64_t frame);
 
 // Allocates nothing.
 void begin_rendering(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame);
-void end_rendering(const Context& context, const PassTable& pass, VkCommandBuffer commands);
 
 }  // namespace rg
