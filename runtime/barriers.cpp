@@ -235,10 +235,4 @@ void update_imported_barriers(const Context& context, Sized& sized, const std::v
   }
 }
 
-void record_group(const Context& context, const Sized& sized, Index group, VkCommandBuffer commands, uint64_t frame) {
-  const GroupRow& row = sized.group_rows[group];
-  if (row.poison != kNone) record_poison(context, sized, sized.poisons[row.poison], commands);
-  if (row.infos != nullptr) context.vk().CmdPipelineBarrier2(commands, row.infos + row_of(frame, row.period));
-}
-
 }  // namespace rg

@@ -11,8 +11,6 @@ void create_barriers(const Context& context, Sized& sized);
 // Puts this frame's imported handles into the translated barriers.
 void update_imported_barriers(const Context& context, Sized& sized, const std::vector<Import>& imports);
 
-void record_group(const Context& context, const Sized& sized, Index group, VkCommandBuffer commands, uint64_t frame);
-
 // ---- poison ---------------------------------------------------------------------------------------------------------
 // Debug mode: what a group acquires is filled with a pattern right before, so that reads of undefined contents show. The group's discarding
 // barriers then start from the fill instead of from `undefined`.

@@ -34,7 +34,7 @@ VkResult record_steps(const FrameJob& job, uint32_t index) {
   if (index == 0) reset_queries(recording);
   if (job.state.entry_barrier && index == job.state.first_chunk[job.state.first_batch_of_queue[job.state.context.plan.batches[chunk.batch].queue]])
     wait_for_all(recording);
-  for (const Step& step : job.state.context.plan.steps.subspan(chunk.first_step, chunk.step_count)) record_step(recording, step);
+  record_steps(recording, job.state.context.plan.steps.subspan(chunk.first_step, chunk.step_count));
   close_module(recording);
   return vk.EndCommandBuffer(commands);
 }
@@ -141,7 +141,7 @@ class OwnRecorder {
   void batch(const Batch& batch) {
     if (batch.wait_count != 0) wait_for_all(recording_);
     for (const Step& step : state_.context.plan.steps.subspan(batch.first_step, batch.step_count)) {
-      record_step(recording_, step);
+      record_steps(recording_, {&step, 1});
       if (step.kind == StepKind::pass && part_ + 1 < parts_.size() && parts_[part_].last_pass == step.index) next();
     }
   }

@@ -197,11 +197,17 @@ void close_module(FrameRecording& r) {
   r.module = 0;
 }
 
-void record_step(FrameRecording& r, const Step& step) {
-  if (step.kind == StepKind::barriers)
-    record_group(r.state.context, *r.state.sized, step.index, r.commands, r.frame);
-  else
-    record_pass(r, step.index);
+void record_steps(FrameRecording& r, std::span<const Step> steps) {
+  const Sized& sized = *r.state.sized;
+  for (const Step& step : steps) {
+    if (step.kind == StepKind::pass) {
+      record_pass(r, step.index);
+      continue;
+    }
+    const GroupRow& row = sized.group_rows[step.index];
+    if (row.poison != kNone) record_poison(r.state.context, sized, sized.poisons[row.poison], r.commands);
+    if (row.infos != nullptr) r.vk.CmdPipelineBarrier2(r.commands, row.infos + row_of(r.frame, row.period));
+  }
 }
 
 }  // namespace rg

@@ -23,7 +23,7 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
 // First in a frame, where the host cannot do it.
 void reset_queries(const FrameRecording& recording);
 
-void record_step(FrameRecording& recording, const Step& step);
+void record_steps(FrameRecording& recording, std::span<const Step> steps);
 void wait_for_all(const FrameRecording& recording);  // a barrier from everything to everything
 
 void close_module(FrameRecording& recording);  // at the end of every command buffer
