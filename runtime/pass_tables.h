@@ -1,3 +1,4 @@
+// Per pass: what it covers and records at given extents.
 #pragma once
 
 #include "runtime/graph_state.h"
