@@ -1,0 +1,131 @@
+// The planner under two witnesses: random programs of the whole language are planned for one to four queues in every configuration, proved by the
+// checker and run by the abstract machine. A failure is shrunk to a small `.rg` text; those found so far are kept in tests/golden/planner and run
+// again.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+
+#include "compiler/machine/machine.h"
+#include "compiler/plan_frame.h"
+#include "compiler/verify/verify.h"
+#include "dsl/front_end.h"
+#include "wide_program.h"
+
+namespace rg::test {
+namespace {
+
+using Kind = dsl::QueueKind;
+const std::vector<std::vector<Kind>> kQueues = {{Kind::graphics},
+                                                {Kind::graphics, Kind::compute},
+                                                {Kind::graphics, Kind::compute, Kind::transfer},
+                                                {Kind::graphics, Kind::compute, Kind::compute, Kind::transfer}};
+constexpr dsl::GraphId kGraph{size_t{0}};
+
+// Nothing where the front end refuses the text.
+std::optional<dsl::Program> load(const std::string& text, std::string* why = nullptr) {
+  dsl::Diagnostics diagnostics;
+  dsl::FrontEndResult front = dsl::load_program(
+      "fuzz.rg", [&](const std::string&, std::string&) { return std::optional(text); }, diagnostics);
+  if (why) *why = print(diagnostics, front.files, false);
+  if (diagnostics.has_errors() || front.program.graphs.empty()) return std::nullopt;
+  return std::move(front.program);
+}
+
+struct Question {
+  std::vector<Kind> queues;
+  bool irredundancy = false, run = false;
+};
+
+std::string first_divergence(const dsl::Program& program, const std::vector<uint32_t>& configuration, const PlanData& plan) {
+  machine::MachineOptions options;
+  options.max_divergences = 1;
+  for (const Resource& resource : plan.resources) {
+    const bool shares = resource.lifetime == Lifetime::transient && !resource.no_alias;
+    options.placement.push_back(shares ? machine::Placement{resource.estimated_offset, resource.estimated_bytes} : machine::Placement{});
+  }
+  for (const std::vector<uint64_t>& conditions : {std::vector<uint64_t>{0}, {3}, {1, 2, 0}}) {
+    options.conditions = conditions;
+    const auto found = machine::run_adversarially(program, kGraph, configuration, plan.view(), plan.program_pass, plan.program_resource, options);
+    if (!found.empty()) return "machine: " + machine::text(found.front());
+  }
+  return {};
+}
+
+// What is wrong with the plans of the program; empty: nothing.
+std::string judge(const dsl::Program& program, const Question& question) {
+  for (const uint32_t rich : {0u, 1u}) {
+    if (rich != 0 && program.features.empty()) continue;
+    const std::vector<uint32_t> configuration(program.features.size(), rich);
+    compiler::PlanOptions options;
+    options.queues = question.queues;
+    const PlanData plan = compiler::plan_frame(program, kGraph, configuration, options).plan;
+    verify::VerifyOptions verify_options;
+    verify_options.irredundancy = question.irredundancy;
+    verify_options.max_findings = 1;
+    for (const verify::Finding& finding :
+         verify::verify(program, kGraph, configuration, plan.view(), plan.program_pass, plan.program_resource, verify_options))
+      return fmt::format("{}: {}", verify::name(finding.hazard), finding.text);
+    const std::string diverges = question.run ? first_divergence(program, configuration, plan) : std::string();
+    if (!diverges.empty()) return diverges;
+  }
+  return {};
+}
+
+std::string kind_of(const std::string& failure) { return failure.substr(0, failure.find(':')); }
+
+std::string shrunk(const std::string& text, const Question& question, const std::string& failure) {
+  return shrink(text, [&](const std::string& less) {
+    const auto program = load(less);
+    return program && kind_of(judge(*program, question)) == kind_of(failure);
+  });
+}
+
+TEST(PlannerFuzz, WideProgramsAreProvedAndRun) {
+  const bool is_long = std::getenv("RGC_LONG") != nullptr;
+  size_t accepted = 0;
+  const uint64_t count = is_long ? 20000 : 240;
+  for (uint64_t seed = 1; seed <= count && !HasFailure(); ++seed) {
+    const std::string text = make_wide_program(seed, 3 + static_cast<uint32_t>(seed % 12));
+    std::string why;
+    const auto program = load(text, &why);
+    if (!program) {
+      EXPECT_NE(why.find("RG03"), std::string::npos) << "seed " << seed << "\n" << why;  // what a skipped pass leaves undefined
+      continue;
+    }
+    ++accepted;
+    const Question question{kQueues[seed % 4], seed % 4 == 0, seed % 4 == 1 || is_long};
+    const std::string failure = judge(*program, question);
+    if (!failure.empty())
+      ADD_FAILURE() << "seed " << seed << ", " << question.queues.size() << " queues: " << failure << "\n" << shrunk(text, question, failure);
+  }
+  EXPECT_GT(accepted * 10, count * 5);
+}
+
+TEST(PlannerFuzz, ShrunkProgramsStayRight) {
+  size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(RGC_SOURCE_DIR) + "/tests/golden/planner")) {
+    std::ifstream file(entry.path());
+    std::stringstream text;
+    text << file.rdbuf();
+    const auto program = load(text.str());
+    ASSERT_TRUE(program) << entry.path();
+    ++files;
+    for (const std::vector<Kind>& queues : kQueues)
+      EXPECT_EQ(judge(*program, {queues, queues.size() == 1, true}), "") << entry.path() << ", " << queues.size() << " queues";
+  }
+  EXPECT_GT(files, 0u);
+}
+
+TEST(PlannerFuzz, ShrinkingKeepsTheFailure) {
+  const std::string text = "a\nb\nc\nneedle\nd\n";
+  EXPECT_EQ(shrink(text, [](const std::string& less) { return less.find("needle") != std::string::npos; }), "needle\n");
+}
+
+}  // namespace
+}  // namespace rg::test
