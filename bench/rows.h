@@ -29,6 +29,10 @@ Rows bench_runtime(const std::string& graphs);
 template <class Work>
 double median_ms(int runs, Work work);
 
+// Wall-clock time of one run that nothing warms up, in milliseconds: for work of seconds.
+template <class Work>
+double once_ms(Work work);
+
 }  // namespace rg::bench
 
 #include <algorithm>
@@ -45,4 +49,11 @@ double rg::bench::median_ms(int runs, Work work) {
   }
   std::sort(times.begin(), times.end());
   return times[times.size() / 2];
+}
+
+template <class Work>
+double rg::bench::once_ms(Work work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }

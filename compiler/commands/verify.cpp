@@ -4,6 +4,7 @@
 
 #include "compiler/commands/command.h"
 #include "compiler/configurations.h"
+#include "compiler/machine/machine.h"
 #include "compiler/verify/mutate.h"
 
 namespace rg::commands {
@@ -26,16 +27,40 @@ bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph&
   return findings.empty();
 }
 
+// The abstract machine as second opinion: conditions all off and all on, memory placed as estimated.
+bool misbehaves(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& frame, const Plan& plan) {
+  machine::MachineOptions options;
+  options.max_divergences = 1;
+  for (const Resource& resource : plan.resources) {
+    const bool shares = resource.lifetime == Lifetime::transient && !resource.no_alias;
+    options.placement.push_back(shares ? machine::Placement{resource.estimated_offset, resource.estimated_bytes} : machine::Placement{});
+  }
+  for (const uint64_t conditions : {uint64_t{0}, ~uint64_t{0}}) {
+    options.conditions = {conditions};
+    if (!machine::run_adversarially(result.program, graph.graph, frame.configuration, plan, frame.plan.program_pass, frame.plan.program_resource,
+                                    options)
+             .empty())
+      return true;
+  }
+  return false;
+}
+
 // True if the checker objects to every damaged plan that differs; what it missed is printed.
 bool test_checker(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
   const std::string name = subject(result, graph, plan);
   verify::MutateOptions options;
   options.progress = [&](size_t done) { show_progress(fmt::format("damaging {}: {}", name, done)); };
-  const verify::MutationReport report = verify::mutate(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass,
-                                                       plan.plan.program_resource, options);
+  options.misbehaves = [&](const Plan& mutant) { return misbehaves(result, graph, plan, mutant); };
+  options.ask_every = 20;
+  const verify::MutationReport report =
+      verify::mutate(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource, options);
   show_progress({});
   print(fmt::format("{}: {} damaged plans, {} rejected\n", name, report.mutants, report.killed));
-  for (const auto& [reason, count] : report.equivalent) print(fmt::format("{}: {} change nothing: {}\n", name, count, reason));
+  for (const auto& [kind, of] : report.kinds)
+    print(fmt::format("{}:   {:<11} {:>5} made, {:>5} rejected; the abstract machine rejects {} of {} it was shown\n", name, kind, of.made, of.killed,
+                      of.agreed, of.asked));
+  for (const auto& [reason, count] : report.equivalent)
+    print(fmt::format("{}: {} change nothing, as the abstract machine confirms: {}\n", name, count, reason));
   for (const std::string& survivor : report.survivors) print(fmt::format("{}: not noticed: {}\n", name, survivor));
   return report.survivors.empty();
 }
@@ -49,7 +74,8 @@ int verify_file(const VerifyCommand& options) {
   if (!result) return exit_input_wrong;
   bool proved = true;
   for (const compiler::CompiledGraph& graph : result->graphs)
-    for (const compiler::FramePlan& plan : graph.plans) proved &= prove(*result, graph, plan) && (!options.mutate || test_checker(*result, graph, plan));
+    for (const compiler::FramePlan& plan : graph.plans)
+      proved &= prove(*result, graph, plan) && (!options.mutate || test_checker(*result, graph, plan));
   return proved ? exit_done : exit_our_fault;  // the planner made what the checker does not accept
 }
 

@@ -170,7 +170,8 @@ std::vector<Divergence> run_adversarially(const dsl::Program& program, dsl::Grap
   const PatchedPlan patched(plan, options.placement);
   const Question question{program, program.graphs[graph], configuration, patched.plan(), program_pass, program_resource};
   MachineOptions enough_frames = options;  // every copy of a history is overwritten once
-  for (const dsl::Resource& resource : question.graph.resources) if (resource.history > 0) enough_frames.frames = std::max(enough_frames.frames, resource.history + 2);
+  for (const dsl::Resource& resource : question.graph.resources)
+    if (resource.history > 0) enough_frames.frames = std::max(enough_frames.frames, resource.history + 2);
   std::vector<Divergence> found = answer(question, enough_frames, run_directed);
   size_t commands = 0;
   for (const Batch& batch : plan.batches) commands += batch.step_count;

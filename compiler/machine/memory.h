@@ -34,10 +34,10 @@ struct Memory {
   // By cell.
   std::vector<Version> contents;
   std::vector<Layout> layouts;
-  std::vector<uint32_t> stores;   // how often contents changed
-  std::vector<uint32_t> seen_by;  // event that read the contents as they are; kNone: nobody
-  std::vector<bool> shared;       // contents come from a sharing write
-  std::vector<uint32_t> owners;   // queue family; kNone: whoever comes first
+  std::vector<uint32_t> stores;       // how often contents changed
+  std::vector<uint32_t> seen_by;      // event that read the contents as they are; kNone: nobody
+  std::vector<bool> shared;           // contents come from a sharing write
+  std::vector<uint32_t> owners;       // queue family; kNone: whoever comes first
   std::vector<uint32_t> released_by;  // event whose acquire has not come; kNone: none
 
   std::vector<Line> lines;   // by agent, cell

@@ -17,7 +17,8 @@ bool ordered_in_group(const Event& a, const Event& b) { return a.resource == kNo
 bool precedes(const Event& a, const Event& b, bool same_group) {
   if (a.queue != b.queue) return false;
   const bool from_barrier = a.kind == EventKind::barrier, to_barrier = b.kind == EventKind::barrier;
-  if (from_barrier && to_barrier) return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0 || (b.all_commands && (a.image || a.half != Half::none));
+  if (from_barrier && to_barrier)
+    return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0 || (b.all_commands && (a.image || a.half != Half::none));
   if (from_barrier) return b.stages != 0 && within(b.stages, a.dst);
   if (to_barrier) return within(a.stages, b.src);
   // Attachment work of one rendering happens in rasterization order.

@@ -23,7 +23,7 @@ struct Unroller {
   Timeline out = {};
   uint32_t frame = 0, queue = 0;
   bool first_in_rendering = true, last_in_rendering = true;
-  uint32_t renderings = 0;  // begun
+  uint32_t renderings = 0;                          // begun
   std::vector<std::vector<uint32_t>> left_by = {};  // by program resource: events of the engine after the last frame
   struct Signalled {
     Index queue;
@@ -31,16 +31,18 @@ struct Unroller {
     uint64_t value;
     uint32_t event;
   };
-  std::vector<Signalled> signals = {};    // of all frames
-  std::vector<bool> begun = {};           // by program resource: used in this frame
+  std::vector<Signalled> signals = {};  // of all frames
+  std::vector<bool> begun = {};         // by program resource: used in this frame
+  std::vector<bool> used = {};          // by program resource: by some pass of the plan
 
   const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
   const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
 
   uint32_t agent(Stages stage, Accesses access) {
-    const auto found = std::find(out.agents.begin(), out.agents.end(), Agent{queue, stage, access});
+    const Agent wanted{stage == stage::host ? kNone : queue, stage, access};  // there is one host
+    const auto found = std::find(out.agents.begin(), out.agents.end(), wanted);
     if (found != out.agents.end()) return static_cast<uint32_t>(found - out.agents.begin());
-    out.agents.push_back({queue, stage, access});
+    out.agents.push_back(wanted);
     RG_CHECK(out.agents.size() <= kMaxAgents, "too many queues, stages and accesses");
     return static_cast<uint32_t>(out.agents.size() - 1);
   }
@@ -157,7 +159,8 @@ struct Unroller {
       event.shares = commutes(access);
       event.rendering = attachment ? renderings : 0;
       event.lost = attachment && first_in_rendering && drops_before(source, access, *attachment);
-      if (attachment && touch.writes && last_in_rendering) event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
+      if (attachment && touch.writes && last_in_rendering)
+        event.lost = event.lost || drops_after(access, *attachment) || (rewritten && destroys(*attachment));
       event.expected = effects.empty() ? std::vector<Version>(cells.size()) : effects[number].before;
       event.result = effects.empty() ? std::vector<Version>(cells.size(), {version::poison, 0}) : effects[number].after;
       if (touch.partial) event.result.assign(cells.size(), {version::partial, 0});
@@ -257,7 +260,8 @@ struct Unroller {
     signals.push_back({queue, frame, signal.value, static_cast<uint32_t>(out.events.size() - 1)});
   }
 
-  // Passes that follow each other with one rendering and no barrier between them are one rendering: it loads before the first and stores after the last.
+  // Passes that follow each other with one rendering and no barrier between them are one rendering: it loads before the first and stores after the
+  // last.
   bool same_rendering(const Batch& batch, Index step, Index other) const {
     if (other < batch.first_step || other >= batch.first_step + batch.step_count) return false;
     const Step &a = in.plan.steps[step], &b = in.plan.steps[other];
@@ -314,9 +318,20 @@ struct Unroller {
     }
     event.family = family(resource, named);
     if (event.stages == 0) event.stages = boundary_stages(resource);
-    event.before_all = event.before_all || event.stages == 0;  // nothing to wait for: the engine was done before
+    event.before_all = event.before_all || event.stages == 0;        // nothing to wait for: the engine was done before
     if (!row(resource).is_surface) event.after = left_by[resource];  // the next frame gets another image
     add(std::move(event));
+    queue = 0;
+  }
+
+  // Before it goes on, the engine waits for the stages the exit state names.
+  void wait_for_exit(uint32_t resource) {
+    for (const Boundary& boundary : in.plan.exit) {
+      if (in.program_resource[boundary.ref.resource] != resource || boundary.stages == 0) continue;
+      queue = boundary.queue < in.plan.queues.size() ? boundary.queue : 0;
+      add(scope_event(fmt::format("the engine waits for `{}` in frame {}", row(resource).name, frame), boundary.stages, 0, 0, 0));
+      left_by[resource].push_back(static_cast<uint32_t>(out.events.size() - 1));
+    }
     queue = 0;
   }
 
@@ -330,17 +345,33 @@ struct Unroller {
     const bool present = after.role == dsl::Role::present;
     if (present) touches = {{stage::bottom_of_pipe, access::none, false, false}};
     for (const Touch& touch : touches) {
-      Event event = touch_event({touch.stage, touch.access, false, false}, resource, physical(resource, whole_region(resource), 0),
-                                readback ? "the host" : "the engine");
-      event.family = family(resource, named);
+      Event event = touch_event({touch.stage, touch.access, false, false}, resource, {}, readback ? "the host" : "the engine");
+      event.family = readback ? kNone : family(resource, named);  // the host is of no family
       event.through_semaphore = present;
       event.after_all = present || readback;
       event.layout = boundary_layout(in.plan.exit, resource, after.role);
-      for (const Version& version : in.reference.finals[frame][resource]) event.expected.push_back(version);
+      for (const uint32_t piece : pieces_left(resource)) {
+        event.cells.push_back(physical_cell(cells_of(resource), piece, 0, frame));
+        event.expected.push_back(in.reference.finals[frame][resource][piece]);
+      }
       add(std::move(event));
       left_by[resource].push_back(static_cast<uint32_t>(out.events.size() - 1));
     }
     queue = 0;
+  }
+
+  // What the frame uses; the rest stays between the engine and itself.
+  Pieces pieces_left(uint32_t resource) const {
+    const ResourceCells& cells = cells_of(resource);
+    std::vector<bool> left(cells.pieces.size(), row(resource).lifetime == dsl::Lifetime::readback);
+    for (const Boundary& boundary : in.plan.exit) {
+      if (in.program_resource[boundary.ref.resource] != resource || boundary.ref.age != 0) continue;
+      for (const uint32_t piece : pieces_in(cells, region_of(in.plan, in.cells, cells, boundary))) left[piece] = true;
+    }
+    Pieces pieces;
+    for (uint32_t piece = 0; piece < left.size(); ++piece)
+      if (left[piece]) pieces.push_back(piece);
+    return pieces;
   }
 
   // Where the plan expects and leaves what the engine brings.
@@ -355,14 +386,18 @@ struct Unroller {
     for (uint32_t i = 0; i < in.graph.resources.size(); ++i)
       if (row(i).lifetime == dsl::Lifetime::imported && cells_of(i).exists && (frame == 0 || changes_outside(in.graph, i))) bring(i);
     for (const Batch& batch : in.plan.batches) add_batch(batch);
-    for (uint32_t i = 0; i < in.graph.resources.size(); ++i)
-      if ((row(i).lifetime == dsl::Lifetime::imported || row(i).lifetime == dsl::Lifetime::readback) && cells_of(i).exists) leave(i);
+    for (uint32_t i = 0; i < in.graph.resources.size(); ++i) {
+      const bool imported = row(i).lifetime == dsl::Lifetime::imported;
+      if ((!imported && row(i).lifetime != dsl::Lifetime::readback) || !cells_of(i).exists || !used[i]) continue;
+      leave(i);
+      if (imported) wait_for_exit(i);
+    }
   }
 
   void find_agents(Event& event) const {
     for (uint32_t i = 0; i < out.agents.size(); ++i) {
       const Agent& agent = out.agents[i];
-      if (agent.queue != event.queue) continue;
+      if (agent.queue != event.queue && agent.queue != kNone) continue;
       if ((agent.stage & event.src_exact) && (agent.access & event.src_accesses)) event.src_agents.set(i);
       if ((agent.stage & event.dst_exact) && (agent.access & event.dst_accesses)) event.dst_agents.set(i);
     }
@@ -386,6 +421,9 @@ struct Unroller {
 Timeline unroll(const Subject& subject) {
   Unroller unroller{subject};
   unroller.left_by.resize(subject.graph.resources.size());
+  unroller.used.resize(subject.graph.resources.size());
+  for (const uint32_t pass : subject.program_pass)
+    for (const dsl::Access& access : subject.graph.passes.rows[pass].accesses) unroller.used[access.resource.value] = true;
   for (; unroller.frame < subject.options.frames; ++unroller.frame) unroller.add_frame();
   unroller.initial_states();
   for (Event& event : unroller.out.events)

@@ -39,8 +39,8 @@ struct Event {
   bool before_all = false;      // done before the first frame was submitted
   bool all_commands = false;    // a signal that also follows what barriers do of themselves
   // Ownership.
-  uint32_t family = kNone;       // of the queue, where the resource belongs to one family at a time
-  bool takes = false;            // contents start with this event, whoever had the resource before
+  uint32_t family = kNone;  // of the queue, where the resource belongs to one family at a time
+  bool takes = false;       // contents start with this event, whoever had the resource before
   Half half = Half::none;
   uint32_t other_queue = kNone;  // of a transfer
   // Accesses.

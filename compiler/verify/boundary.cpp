@@ -241,7 +241,8 @@ void check_boundaries(const Model& model, Report& report) {
           report_boundary(model, r, c, "its rows name queues of different families, but one owns it", report);
         const bool kept = model.is_exclusive(r) && !left.discard && left.owner != kNone && found.owner != kNone;
         if (kept && model.family[left.owner] != model.family[found.owner])
-          report_boundary(model, r, c, "the next frame expects it on " + model.queue_name(found.owner) + ", but " + model.queue_name(left.owner) + " owns it",
+          report_boundary(model, r, c,
+                          "the next frame expects it on " + model.queue_name(found.owner) + ", but " + model.queue_name(left.owner) + " owns it",
                           report);
       }
   }

@@ -62,7 +62,8 @@ uint64_t print_of(const Replay& replay, const CellState& state, bool exclusive) 
   Fingerprint print;
   add_set(replay, state.reads, print);
   add_set(replay, state.writes, print);
-  for (const uint64_t value : {uint64_t{static_cast<uint32_t>(state.layout)}, uint64_t{exclusive ? state.owner : kNone}, uint64_t{state.released_by}}) print.add(value);
+  for (const uint64_t value : {uint64_t{static_cast<uint32_t>(state.layout)}, uint64_t{exclusive ? state.owner : kNone}, uint64_t{state.released_by}})
+    print.add(value);
   return print.value();
 }
 

@@ -146,8 +146,8 @@ struct Cut {
   std::vector<uint32_t> ranks;
 };
 Cut make_cut(const Input& input, const std::vector<int64_t>& extents);
-// Requires check_indices() to have found nothing. Reports accesses the plan does not list or lists differently. `family`, by queue: where it is one for
-// both sides of an ownership transfer, the release is left out and the acquire is a barrier like others, as the runtime records them.
+// Requires check_indices() to have found nothing. Reports accesses the plan does not list or lists differently. `family`, by queue: where it is one
+// for both sides of an ownership transfer, the release is left out and the acquire is a barrier like others, as the runtime records them.
 Model make_model(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, const std::vector<uint32_t>& family,
                  Report& report);
 

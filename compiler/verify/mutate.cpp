@@ -41,35 +41,57 @@ class Mutator {
         options_(options) {}
 
   MutationReport run() {
-    for (Index i = 0; i < plan_.memory_barriers.size(); ++i) masks(&Plan::memory_barriers, i, "memory barrier");
-    for (Index i = 0; i < plan_.image_barriers.size(); ++i) image(i);
-    for (Index i = 0; i < plan_.buffer_barriers.size(); ++i) buffer(i);
-    for (Index i = 0; i < plan_.attachments.size(); ++i) attachment(i);
-    for (Index i = 0; i < plan_.releases.size(); ++i) release(i);
-    for (Index i = 0; i + 1 < plan_.steps.size(); ++i) order(i);
-    for (Index i = 0; i + 1 < plan_.acquires.size(); ++i) placement(i);
-    for (Index i = 0; i < plan_.acquires.size(); ++i) acquire(i);
+    each("barrier", plan_.memory_barriers, [&](Index i) { masks(&Plan::memory_barriers, i, "memory barrier"); });
+    each("barrier", plan_.image_barriers, [&](Index i) { image(i); });
+    each("barrier", plan_.buffer_barriers, [&](Index i) { buffer(i); });
+    each("attachment", plan_.attachments, [&](Index i) { attachment(i); });
+    each("hand-off", plan_.releases, [&](Index i) { release(i); });
+    each("hand-off", plan_.acquires, [&](Index i) { acquire(i), clocks(i); });
+    each("order", plan_.steps, [&](Index i) { order(i); });
+    each("placement", plan_.acquires, [&](Index i) { placement(i); });
+    each("wait", plan_.waits, [&](Index i) { wait(i); });
+    each("signal", plan_.signals, [&](Index i) { signal(i); });
+    each("queue", plan_.batches, [&](Index i) { other_queue(i); });
+    each("ownership", plan_.image_barriers, [&](Index i) { transfer(&Plan::image_barriers, i); });
+    each("ownership", plan_.buffer_barriers, [&](Index i) { transfer(&Plan::buffer_barriers, i); });
+    each("ownership", plan_.resources, [&](Index i) { sharing(i); });
     return std::move(report_);
   }
 
  private:
+  template <class Rows, class Visit>
+  void each(const char* kind, const Rows& rows, Visit visit) {
+    kind_ = kind;
+    for (Index i = 0; i < rows.size(); ++i) visit(i);
+  }
+
   // ---- one mutant -------------------------------------------------------------------------------------------------------
+
+  bool is_proved(const Plan& mutant) const {
+    VerifyOptions verify_options;
+    verify_options.irredundancy = false;
+    verify_options.max_findings = 1;
+    return verify(program_, graph_, configuration_, mutant, program_pass_, program_resource_, verify_options).empty();
+  }
 
   // `harmless`: the class to which the mutant belongs if it survives; empty: it must not.
   void judge(const Plan& mutant, const std::string& what, const std::string& harmless) {
     if (turn_++ % options_.every != 0) return;
     ++report_.mutants;
+    KindReport& kind = report_.kinds[kind_];
+    ++kind.made;
     if (options_.progress) options_.progress(report_.mutants);
-    VerifyOptions verify_options;
-    verify_options.irredundancy = false;
-    verify_options.max_findings = 1;
-    const bool killed = !verify(program_, graph_, configuration_, mutant, program_pass_, program_resource_, verify_options).empty();
-    if (killed)
-      ++report_.killed;
-    else if (!harmless.empty())
+    if (!is_proved(mutant)) {
+      ++report_.killed, ++kind.killed;
+      if (options_.misbehaves && options_.ask_every != 0 && report_.killed % options_.ask_every == 0)
+        ++kind.asked, kind.agreed += options_.misbehaves(mutant);
+    } else if (options_.misbehaves && options_.misbehaves(mutant)) {
+      report_.survivors.push_back(what + " (the second opinion is that this is wrong)");
+    } else if (!harmless.empty()) {
       ++report_.equivalent[harmless];
-    else
+    } else {
       report_.survivors.push_back(what);
+    }
   }
 
   template <class Row, class Change>
@@ -209,12 +231,15 @@ class Mutator {
   void release(Index at) {
     const std::string what = "release of " + std::string(plan_.resources[plan_.releases[at].resource].name);
     const bool can_hand_on = may_share(plan_)[plan_.releases[at].resource];
-    const std::string harmless = can_hand_on ? "" : "release that nobody may take over";
+    const std::string harmless = can_hand_on ? "" : "release of memory that is never shared";
     // One of several stages may be ordered before every possible taker by the frame's own barriers.
     const Stages stages = plan_.releases[at].stages;
-    const std::string implied = can_hand_on && (stages & (stages - 1)) != 0 ? "release that other barriers order already" : harmless;
+    const std::string implied = can_hand_on && (stages & (stages - 1)) != 0 ? "release stage that leads to another one of the row" : harmless;
     clear_bits(&Plan::releases, at, &Release::stages, what + ", stages", implied);
     clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
+    if (plan_.releases[at].point > 0)
+      change(
+          &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early", harmless);
   }
 
   // Of buffers; an image's own barrier says what its acquire says.
@@ -226,10 +251,101 @@ class Mutator {
     clear_bits(&Plan::acquires, at, &Acquire::accesses, what + ", accesses", {});
   }
 
+  // A point more than is known, of each queue, in this frame and the one before.
+  void clocks(Index at) {
+    const Acquire& row = plan_.acquires[at];
+    if (row.first_clock == kNone) return;
+    for (Index c = 0; c < 2 * plan_.queues.size(); ++c) {
+      if (c == plan_.queues.size() + row.queue) continue;  // all of the frame before is over on the own queue
+      const std::string what = "clock " + std::to_string(c) + " of " + std::string(plan_.resources[row.resource].name) + " too far";
+      change(
+          &Plan::alias_clocks, row.first_clock + c, [](Index& clock) { clock = clock == kNone ? 0 : clock + 1; }, what,
+          "clock that could count more");
+    }
+  }
+
+  // ---- submission ---------------------------------------------------------------------------------------------------------
+
+  void wait(Index at) {
+    const Wait& row = plan_.waits[at];
+    const std::string what = "wait " + std::to_string(at) + " for queue " + std::to_string(row.queue);
+    std::vector<Wait> rows(plan_.waits.begin(), plan_.waits.end());
+    rows.erase(rows.begin() + at);
+    std::vector<Batch> batches(plan_.batches.begin(), plan_.batches.end());
+    for (Batch& batch : batches) {
+      if (at >= batch.first_wait && at < batch.first_wait + batch.wait_count) --batch.wait_count;
+      if (batch.first_wait > at) --batch.first_wait;
+    }
+    Plan mutant = plan_;
+    mutant.waits = rows, mutant.batches = batches;
+    judge(mutant, what + " removed", {});
+    clear_bits(&Plan::waits, at, &Wait::stages, what + ", stages", {});
+    if (row.value > 1)
+      change(
+          &Plan::waits, at, [](Wait& w) { --w.value; }, what + ", for an earlier value",
+          row.frames_ago ? "value of the frame before that a later frame implies" : "");
+    if (row.frames_ago == 0)
+      change(
+          &Plan::waits, at, [](Wait& w) { w.frames_ago = 1; }, what + ", for the frame before");
+  }
+
+  void signal(Index at) {
+    const Signal& row = plan_.signals[at];
+    const std::string what = "signal " + std::to_string(at);
+    clear_bits(&Plan::signals, at, &Signal::stages, what + ", stages", {});
+    if ((row.stages & stage::all_commands) != 0)
+      change(
+          &Plan::signals, at, [](Signal& s) { s.stages = stage::clear; }, what + ", after clears only", "last signal that only the host waits for");
+    change(
+        &Plan::signals, at, [](Signal& s) { ++s.value; }, what + ", another value");
+  }
+
+  // The first pass of the batch runs at the end of the next batch of another queue.
+  void other_queue(Index at) {
+    const Batch& from = plan_.batches[at];
+    Index to = at;
+    while (to < plan_.batches.size() && plan_.batches[to].queue == from.queue) ++to;
+    Index step = from.first_step;
+    while (step < from.first_step + from.step_count && plan_.steps[step].kind != StepKind::pass) ++step;
+    if (to == plan_.batches.size() || step == from.first_step + from.step_count) return;
+    std::vector<Step> steps;
+    std::vector<Batch> batches(plan_.batches.begin(), plan_.batches.end());
+    for (Index b = 0; b < batches.size(); ++b) {
+      const Index first = static_cast<Index>(steps.size());
+      for (Index s = plan_.batches[b].first_step; s < plan_.batches[b].first_step + plan_.batches[b].step_count; ++s)
+        if (s != step) steps.push_back(plan_.steps[s]);
+      if (b == to) steps.push_back(plan_.steps[step]);
+      batches[b].first_step = first, batches[b].step_count = static_cast<Index>(steps.size()) - first;
+    }
+    Plan mutant = plan_;
+    mutant.steps = steps, mutant.batches = batches;
+    judge(mutant, "pass " + std::string(plan_.passes[plan_.steps[step].index].name) + " on another queue", "pass that waits for nothing there");
+  }
+
+  // ---- ownership ----------------------------------------------------------------------------------------------------------
+
+  template <class Row>
+  void transfer(Column<Row> column, Index at) {
+    const Row& row = (plan_.*column)[at];
+    if (row.src_queue == row.dst_queue) return;
+    const std::string what = "ownership transfer " + std::to_string(at);
+    change(
+        column, at, [](Row& b) { b.src_queue = b.dst_queue = kNone; }, what + " as a plain barrier");
+    change(
+        column, at, [](Row& b) { std::swap(b.src_queue, b.dst_queue); }, what + " the other way");
+  }
+
+  void sharing(Index at) {
+    if (!plan_.resources[at].concurrent) return;
+    change(
+        &Plan::resources, at, [](Resource& r) { r.concurrent = false; }, std::string(plan_.resources[at].name) + " not shared",
+        "shared by one family only");
+  }
+
   // ---- order --------------------------------------------------------------------------------------------------------------
 
   void order(Index at) {
-    if (plan_.steps[at].kind != StepKind::pass) return;
+    if (at + 1 == plan_.steps.size() || plan_.steps[at].kind != StepKind::pass) return;
     Index next = at + 1;
     while (next < plan_.steps.size() && plan_.steps[next].kind != StepKind::pass) ++next;
     if (next == plan_.steps.size()) return;
@@ -238,7 +354,8 @@ class Mutator {
     Plan mutant = plan_;
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
-    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged", depend(a, b) ? "" : "passes that do not meet");
+    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged",
+          depend(a, b) ? "" : "exchanged passes that do not depend on each other");
   }
 
   bool depend(const Pass& a, const Pass& b) const {
@@ -270,6 +387,7 @@ class Mutator {
   // ---- placement ------------------------------------------------------------------------------------------------------------
 
   void placement(Index at) {
+    if (at + 1 == plan_.acquires.size()) return;
     const Index a = plan_.acquires[at].resource, b = plan_.acquires[at + 1].resource;
     const uint64_t offset = plan_.resources[b].estimated_offset;
     change(
@@ -285,6 +403,7 @@ class Mutator {
   const std::vector<uint32_t>& program_resource_;
   const MutateOptions& options_;
   size_t turn_ = 0;
+  std::string kind_;
   MutationReport report_;
 };
 

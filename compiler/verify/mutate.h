@@ -3,11 +3,14 @@
 //   element            damage
 //   barrier            removed; one stage bit or access bit cleared; layout changed; contents discarded; last mip or layer left out
 //   attachment         contents not loaded, not stored
-//   pass               changes places with the next one
-//   hand-off           stage or access bit of a release or an acquire cleared; allowed pair removed
+//   pass               changes places with the next one; moved to another queue
+//   wait, signal       removed; one stage bit cleared; waits for an earlier value, or for the frame before
+//   ownership          a half of a transfer becomes a plain barrier, or goes the other way; a shared resource becomes exclusive
+//   hand-off           stage or access bit of a release or an acquire cleared; release a point too early; clock a point too far
 //   placement          bytes of two resources that live at once
 //
-// A survivor that changes nothing belongs to a named class; any other survivor is a hole in the checker.
+// A survivor that changes nothing belongs to a named class, and a second, independent opinion must agree that it changes nothing; any other survivor is a
+// hole in the checker.
 #pragma once
 
 #include <functional>
@@ -19,14 +22,23 @@
 
 namespace rg::verify {
 
+struct KindReport {
+  size_t made = 0, killed = 0;
+  size_t asked = 0, agreed = 0;  // killed mutants the second opinion was asked about, and rejected, too
+};
 struct MutationReport {
   size_t mutants = 0, killed = 0;
+  std::map<std::string, KindReport> kinds;   // of damage
   std::map<std::string, size_t> equivalent;  // class -> mutants
   std::vector<std::string> survivors;        // one line each: what was damaged, unnoticed
 };
 
 struct MutateOptions {
-  size_t every = 1;  // try every n-th mutant of each kind
+  size_t every = 1;  // try every n-th mutant
+  // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about every mutant that verify() accepts, and
+  // about every n-th that it rejects.
+  std::function<bool(const Plan&)> misbehaves = {};
+  size_t ask_every = 0;
   std::function<void(size_t done)> progress = {};
 };
 

@@ -8,8 +8,9 @@ namespace {
 
 std::string transfer_text(const Model& model, const Scope& scope) {
   const bool release = scope.transfer == Ownership::release;
-  return std::string(release ? "the release" : "the acquire") + " of " + (scope.cells.empty() ? "" : model.place(scope.resource, scope.cells.front())) +
-         (release ? " to " : " from ") + model.queue_name(scope.other);
+  return std::string(release ? "the release" : "the acquire") + " of " +
+         (scope.cells.empty() ? "" : model.place(scope.resource, scope.cells.front())) + (release ? " to " : " from ") +
+         model.queue_name(scope.other);
 }
 
 void report_owner(Replay& replay, uint32_t resource, const std::string& pass, const std::string& text) {
@@ -35,9 +36,11 @@ void check_owner(Replay& replay, uint32_t pass, uint32_t resource, uint32_t cell
   if (!model.is_exclusive(resource)) return;
   const std::string who = "`" + model.pass_name(pass) + "` on " + model.queue_name(queue) + " uses " + model.place(resource, cell);
   if (state.released_by != kNone)
-    report_owner(replay, resource, model.pass_name(pass), who + " between " + transfer_text(model, model.scopes[state.released_by]) + " and its acquire");
+    report_owner(replay, resource, model.pass_name(pass),
+                 who + " between " + transfer_text(model, model.scopes[state.released_by]) + " and its acquire");
   else if (!may_use(model, state, queue))
-    report_owner(replay, resource, model.pass_name(pass), who + ", which " + model.queue_name(state.owner) + " owns: no release and acquire hand it over");
+    report_owner(replay, resource, model.pass_name(pass),
+                 who + ", which " + model.queue_name(state.owner) + " owns: no release and acquire hand it over");
   for (const uint32_t scope : state.owner_scopes) replay.require({atom_of(scope, AtomField::whole)});
   if (!may_use(model, state, queue)) state.owner_scopes.clear();
   if (state.owner == kNone || !may_use(model, state, queue)) state.owner = queue;
@@ -67,9 +70,11 @@ void check_transfer(Replay& replay, const Scope& scope, uint32_t scope_id, uint3
   const Model& model = replay.model;
   const std::string what = transfer_text(model, scope);
   if (scope.transfer == Ownership::release) {
-    if (state.released_by != kNone) report_owner(replay, scope.resource, "", what + " follows another release of " + model.place(scope.resource, cell));
+    if (state.released_by != kNone)
+      report_owner(replay, scope.resource, "", what + " follows another release of " + model.place(scope.resource, cell));
     if (!may_use(model, state, scope.queue))
-      report_owner(replay, scope.resource, "", what + " comes from " + model.queue_name(scope.queue) + ", but " + model.queue_name(state.owner) + " owns it");
+      report_owner(replay, scope.resource, "",
+                   what + " comes from " + model.queue_name(scope.queue) + ", but " + model.queue_name(state.owner) + " owns it");
     state.released_by = scope_id;
     return;
   }

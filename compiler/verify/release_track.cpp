@@ -184,7 +184,8 @@ void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group) {
   if (group.plan_group == kNone) return;
   for (const uint32_t index : track.acquires_of_group[group.plan_group]) {
     const Acquire& acquire = plan_of(replay).acquires[index];
-    if (acquire.queue != group.queue || acquire.point != point) report_alias(replay, acquire.resource, "its acquire names another queue or point than its group has");
+    if (acquire.queue != group.queue || acquire.point != point)
+      report_alias(replay, acquire.resource, "its acquire names another queue or point than its group has");
     if (acquire.queue == group.queue) check_clock(replay, track, acquire);
   }
 }

@@ -1,6 +1,6 @@
-// Signals and waits. A signal's first scope is everything submitted before it on its queue, limited to its stages and what comes logically before them;
-// signals of one queue follow each other. A wait's second scope is everything submitted after it on its queue, limited likewise. Both are memory
-// dependencies on all accesses of their stages.
+// Signals and waits. A signal's first scope is everything submitted before it on its queue, limited to its stages and what comes logically before
+// them; signals of one queue follow each other. A wait's second scope is everything submitted after it on its queue, limited likewise. Both are
+// memory dependencies on all accesses of their stages.
 #include <algorithm>
 
 #include "compiler/verify/sync_update.h"
@@ -95,7 +95,8 @@ void signal(const History& history, const Executed& executed, WriteRecord& write
     if (transition) source.add({atom_of(write.scope, AtomField::whole)});
     if (!source.proof) continue;
     write.available = true;
-    add_signal(history, write.reach, group.queue, number_of(history.model, scope, executed.frame), unite(*source.proof, {atom_of(id, AtomField::whole)}));
+    add_signal(history, write.reach, group.queue, number_of(history.model, scope, executed.frame),
+               unite(*source.proof, {atom_of(id, AtomField::whole)}));
   }
 }
 

@@ -129,7 +129,8 @@ void check_scope(const Submission& submission, const Scope& scope) {
   const StageSet foreign = (scope.src | scope.dst) & ~supported_stages(submission.kind(scope.queue));
   const bool everything = (scope.raw_src | scope.raw_dst) & stage::all_commands;
   if (foreign && !everything)
-    submission.report.add({Hazard::invalid_barrier, "", "", "", words(submission.model, scope) + " names " + stages_text(foreign) + ", which its queue lacks"});
+    submission.report.add(
+        {Hazard::invalid_barrier, "", "", "", words(submission.model, scope) + " names " + stages_text(foreign) + ", which its queue lacks"});
   if (scope.kind != ScopeKind::signal && scope.kind != ScopeKind::wait) return;
   // Only the signal that retires the frame may stand for all.
   const bool retires = scope.kind == ScopeKind::signal && scope.value == submission.model.signals_on[scope.queue];
@@ -143,7 +144,10 @@ void check_scope(const Submission& submission, const Scope& scope) {
 std::vector<std::vector<uint32_t>> batches_before(const Plan& plan) {
   std::vector<std::vector<uint32_t>> before(plan.batches.size(), std::vector<uint32_t>(plan.queues.size(), 0));
   std::vector<std::vector<uint32_t>> on(plan.queues.size());  // batches so far
-  struct Signalled { uint64_t value; uint32_t batch; };
+  struct Signalled {
+    uint64_t value;
+    uint32_t batch;
+  };
   std::vector<std::vector<Signalled>> signals(plan.queues.size());
   const auto join = [](std::vector<uint32_t>& into, const std::vector<uint32_t>& from) {
     for (size_t q = 0; q < into.size(); ++q) into[q] = std::max(into[q], from[q]);

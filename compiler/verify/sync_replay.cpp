@@ -234,7 +234,8 @@ void run_pass(Replay& replay, uint32_t index) {
 
 void report_transition(Replay& replay, const Scope& scope, uint32_t cell, Hazard hazard, const std::string& before, const std::string& pass,
                        const std::string& missing) {
-  std::string what = scope.kind == ScopeKind::image ? "image barrier " + std::to_string(scope.index) + " moves " : "buffer barrier " + std::to_string(scope.index) + " moves ";
+  std::string what = scope.kind == ScopeKind::image ? "image barrier " + std::to_string(scope.index) + " moves "
+                                                    : "buffer barrier " + std::to_string(scope.index) + " moves ";
   what += replay.model.place(scope.resource, cell);
   if (scope.old_layout != scope.new_layout) what += " from " + layout_name(scope.old_layout) + " to " + layout_name(scope.new_layout);
   if (scope.transfer == Ownership::release) what += " to " + replay.model.queue_name(scope.other);
@@ -352,8 +353,7 @@ void enter_resource(Replay& replay, uint32_t r, const std::vector<Pending>& entr
   const ResourceNode& node = replay.model.resources[r];
   for (uint32_t i = node.first_cell; i < node.first_cell + node.copies * node.partition.cell_count(); ++i) {
     // The host has waited for everything before it uses a read-back buffer again.
-    replay.cells[i] =
-        lifetime == dsl::Lifetime::readback ? CellState{} : state_from(entry[i], lifetime != dsl::Lifetime::imported, replay.history);
+    replay.cells[i] = lifetime == dsl::Lifetime::readback ? CellState{} : state_from(entry[i], lifetime != dsl::Lifetime::imported, replay.history);
     for (WriteRecord& write : replay.cells[i].writes) write.pass = kNone;
   }
 }
@@ -424,8 +424,7 @@ SyncResult replay_sync(const Model& model, bool proofs, Report& report) {
     if (proofs && replay.releases.active) replay.result.released = std::move(replay.releases.used);
     return std::move(replay.result);
   }
-  if (!report.full())
-    report.add({Hazard::boundary_mismatch, "", "", "", "frame after frame leaves another state behind: the proof does not close"});
+  if (!report.full()) report.add({Hazard::boundary_mismatch, "", "", "", "frame after frame leaves another state behind: the proof does not close"});
   return std::move(replay.result);
 }
 

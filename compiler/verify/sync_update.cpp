@@ -66,9 +66,7 @@ void drop_root(WriteRecord& write) {
 }  // namespace
 
 Proof proof_of_reach(const Reach& reach, Site site) { return unite(reach.root, relative_proof(reach, site)); }
-Proof proof_of_visible(const WriteRecord& write, Site site, uint32_t access) {
-  return unite(write.reach.root, relative_proof(write, site, access));
-}
+Proof proof_of_visible(const WriteRecord& write, Site site, uint32_t access) { return unite(write.reach.root, relative_proof(write, site, access)); }
 
 Proof stage_atom(uint32_t scope, AtomField field, Stages raw, uint32_t stage) {
   const uint32_t bit = raw_bit_of_stage(raw, stage);

@@ -27,7 +27,8 @@ std::optional<Planned> plan_random(uint64_t seed) {
   dsl::FrontEndResult front = dsl::load_program(
       "random.rg", [&](const std::string&, std::string&) { return std::optional(source); }, diagnostics);
   for (const dsl::Diagnostic& each : diagnostics.rows())
-    if (row(each.kind).severity == dsl::Severity::error && row(each.kind).code != "RG0301" && row(each.kind).code != "RG0305" && row(each.kind).code != "RG0390")
+    if (row(each.kind).severity == dsl::Severity::error && row(each.kind).code != "RG0301" && row(each.kind).code != "RG0305" &&
+        row(each.kind).code != "RG0390")
       ADD_FAILURE() << "seed " << seed << ": " << print(diagnostics, front.files, false);
   if (diagnostics.has_errors()) return std::nullopt;
   Planned planned{std::move(front.program), {}};

@@ -241,8 +241,8 @@ void Builder::end_anywhere() {
 
 void Builder::batch(Index queue) {
   close_batch();
-  plan.batches.push_back({queue, static_cast<Index>(plan.steps.size()), 0, static_cast<Index>(plan.waits.size()), 0,
-                          static_cast<Index>(plan.signals.size()), 0});
+  plan.batches.push_back(
+      {queue, static_cast<Index>(plan.steps.size()), 0, static_cast<Index>(plan.waits.size()), 0, static_cast<Index>(plan.signals.size()), 0});
 }
 
 void Builder::close_batch() {

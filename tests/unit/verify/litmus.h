@@ -28,8 +28,8 @@ inline std::string run_machine(Builder& b) {
   if (std::any_of(rows.begin(), rows.end(), [](const dsl::Resource& row) { return row.lifetime == dsl::Lifetime::imported; })) options.frames = 1;
   for (const bool united : {false, true}) {
     options.united = united;
-    for (const machine::Divergence& each :
-         machine::run_adversarially(b.program, dsl::GraphId{size_t{0}}, b.configuration, b.view(), b.plan.program_pass, b.plan.program_resource, options))
+    for (const machine::Divergence& each : machine::run_adversarially(b.program, dsl::GraphId{size_t{0}}, b.configuration, b.view(),
+                                                                      b.plan.program_pass, b.plan.program_resource, options))
       found += "\n  " + machine::text(each);
   }
   return found;

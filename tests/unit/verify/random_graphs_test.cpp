@@ -1,8 +1,11 @@
 // The planner under the checker: random programs, random sizes, damaged plans.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <random>
 
+#include "compiler/machine/machine.h"
 #include "compiler/plan_frame.h"
 #include "compiler/verify/mutate.h"
 #include "compiler/verify/verify.h"
@@ -13,13 +16,23 @@ namespace {
 
 constexpr dsl::GraphId kGraph{size_t{0}};
 
+using Kind = dsl::QueueKind;
+const std::vector<std::vector<Kind>> kQueues = {{Kind::graphics},
+                                                {Kind::graphics, Kind::compute},
+                                                {Kind::graphics, Kind::compute, Kind::transfer},
+                                                {Kind::graphics, Kind::compute, Kind::compute, Kind::transfer}};
+
+bool is_long() { return std::getenv("RGC_LONG") != nullptr; }
+
 struct Planned {
   dsl::Program program;
   compiler::FramePlan frame;
 };
-Planned plan_random(uint64_t seed, const RandomShape& shape) {
+Planned plan_random(uint64_t seed, const RandomShape& shape, const std::vector<Kind>& queues = kQueues[0]) {
   Planned planned{make_random_program(seed, shape), {}};
-  planned.frame = compiler::plan_frame(planned.program, kGraph, {}, {});
+  compiler::PlanOptions options;
+  options.queues = queues;
+  planned.frame = compiler::plan_frame(planned.program, kGraph, {}, options);
   return planned;
 }
 RandomShape shape_of_seed(uint64_t seed) {
@@ -35,8 +48,48 @@ std::string findings_of(const Planned& planned, const VerifyOptions& options = {
   return text;
 }
 
+bool uses_several_queues(const PlanData& plan) {
+  return std::any_of(plan.batches.begin(), plan.batches.end(), [&](const Batch& batch) { return batch.queue != plan.batches.front().queue; });
+}
+
+// The abstract machine's opinion, with memory placed as estimated.
+bool misbehaves(const Planned& planned, const Plan& plan) {
+  machine::MachineOptions options;
+  options.max_divergences = 1;
+  for (const Resource& resource : plan.resources) {
+    const bool shares = resource.lifetime == Lifetime::transient && !resource.no_alias;
+    options.placement.push_back(shares ? machine::Placement{resource.estimated_offset, resource.estimated_bytes} : machine::Placement{});
+  }
+  for (const uint64_t conditions : {uint64_t{0}, ~uint64_t{0}}) {
+    options.conditions = {conditions};
+    const PlanData& own = planned.frame.plan;
+    if (!machine::run_adversarially(planned.program, kGraph, {}, plan, own.program_pass, own.program_resource, options).empty()) return true;
+  }
+  return false;
+}
+
 TEST(RandomGraphs, PlansAreProved) {
   for (uint64_t seed = 0; seed < 1000; ++seed) ASSERT_EQ(findings_of(plan_random(seed, shape_of_seed(seed))), "") << "seed " << seed;
+}
+
+TEST(RandomGraphs, PlansOnSeveralQueuesAreProved) {
+  VerifyOptions options;
+  options.irredundancy = false;
+  size_t several = 0;
+  for (uint64_t seed = 0; seed < 300; ++seed) {
+    const Planned planned = plan_random(seed, shape_of_seed(seed), kQueues[1 + seed % 3]);
+    several += uses_several_queues(planned.frame.plan);
+    ASSERT_EQ(findings_of(planned, options), "") << "seed " << seed;
+  }
+  EXPECT_GT(several, 90u);
+}
+
+// What the checker proves, the abstract machine runs as program order does, on one family and on several.
+TEST(RandomGraphs, MachineAgreesOnSeveralQueues) {
+  for (uint64_t seed = 0; seed < (is_long() ? 400u : 40u); ++seed) {
+    const Planned planned = plan_random(seed, shape_of_seed(seed % 24), kQueues[1 + seed % 3]);
+    EXPECT_FALSE(misbehaves(planned, planned.frame.plan.view())) << "seed " << seed;
+  }
 }
 
 TEST(RandomGraphs, LargePlanIsProved) {
@@ -54,17 +107,23 @@ TEST(RandomGraphs, PlansAreProvedAtAThousandSizes) {
   }
 }
 
-// Removing any one stage bit, access bit or barrier of a plan without redundant atoms breaks it; so does any other damage.
+// Removing any one stage bit, access bit, barrier, wait or signal of a plan without redundant atoms breaks it; so does any other damage, but for
+// classes in which the abstract machine sees no difference either.
 TEST(RandomGraphs, EveryDamageIsNoticed) {
-  size_t mutants = 0;
-  for (uint64_t seed = 2000; seed < 2100; ++seed) {
-    const Planned planned = plan_random(seed, shape_of_seed(seed));
+  size_t mutants = 0, plans = 0;
+  for (uint64_t seed = 2000; seed < (is_long() ? 12000u : 2090u); ++seed) {
+    const Planned planned = plan_random(seed, shape_of_seed(seed), kQueues[seed % 3]);
+    if (seed % 3 != 0 && !findings_of(planned).empty()) continue;  // damage of what is not needed is no damage
     const PlanData& plan = planned.frame.plan;
-    const MutationReport report = mutate(planned.program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource);
+    MutateOptions options;
+    options.misbehaves = [&](const Plan& mutant) { return misbehaves(planned, mutant); };
+    const MutationReport report = mutate(planned.program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, options);
     for (const std::string& survivor : report.survivors) ADD_FAILURE() << "seed " << seed << ", not noticed: " << survivor;
-    mutants += report.mutants;
+    mutants += report.mutants, ++plans;
+    if (HasFailure() && plans > 20) return;
   }
-  EXPECT_GT(mutants, 8000u);
+  EXPECT_GT(plans, 45u);
+  EXPECT_GT(mutants, plans * 60);
 }
 
 }  // namespace

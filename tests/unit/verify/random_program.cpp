@@ -239,7 +239,11 @@ class Generator {
     if (pass_.kind == PassKind::raster || chance(2)) return;
     const bool clears_image = std::any_of(pass_.accesses.begin(), pass_.accesses.end(), [](const Access& a) { return a.role == Role::clear_dst; });
     pass_.queue = pass_.kind == PassKind::transfer && !clears_image && chance(2) ? QueueKind::transfer : QueueKind::compute;
-    pass_.queue_may = !chance(3);
+    // What the engine brings, and what commutes, stays with its like, so that orders to leave the graphics queue cannot always be followed.
+    const bool imports = std::any_of(pass_.accesses.begin(), pass_.accesses.end(), [&](const Access& a) {
+      return row(a.resource.value).lifetime == Lifetime::imported || a.mode == Mode::atomic || a.disjoint;
+    });
+    pass_.queue_may = imports || !chance(3);
   }
 
   bool add_compute() {
