@@ -31,7 +31,7 @@ void add_instance(Scene& scene, const demo::MeshData& mesh, const demo::Material
 glm::vec4 decode_packed_float(uint32_t bits) { return glm::vec4(glm::unpackF2x11_1x10(bits), 1); }
 
 // VkFormat numbers of the images that the tests look at.
-enum : uint32_t { kR8 = 9, kRgba8 = 37, kR16f = 76, kRg16 = 77, kRg16f = 83, kRgba16f = 97, kRg32f = 103, kR11g11b10f = 122, kD32f = 126 };
+enum : uint32_t { kR8 = 9, kRgba8 = 37, kR16f = 76, kRg16 = 77, kRg16f = 83, kRgba16f = 97, kR32f = 100, kRg32f = 103, kRgba32f = 109, kR11g11b10f = 122, kD32f = 126 };
 
 glm::vec4 decode(uint32_t format, const std::byte* at) {
   const auto word = [&](size_t i) {
@@ -66,6 +66,9 @@ glm::vec4 decode(uint32_t format, const std::byte* at) {
       return {number(0), number(1), 0, 1};
     case kR11g11b10f:
       return decode_packed_float(word(0));
+    case kRgba32f:
+      return {number(0), number(1), number(2), number(3)};
+    case kR32f:
     case kD32f:
       return {number(0), 0, 0, 1};
     default:
@@ -75,6 +78,13 @@ glm::vec4 decode(uint32_t format, const std::byte* at) {
 }
 
 }  // namespace
+
+std::vector<glm::vec4> decode_texels(const Dump& dump) {
+  std::vector<glm::vec4> texels;
+  for (size_t i = 0; i + dump.bytes_per_texel <= dump.bytes.size() && dump.bytes_per_texel > 0; i += dump.bytes_per_texel)
+    texels.push_back(decode(static_cast<uint32_t>(dump.format), dump.bytes.data() + i));
+  return texels;
+}
 
 Device& device() {
   static Device device = [] {
@@ -163,10 +173,7 @@ Dump Lab::dump(const FrameData& data, Index pass, Index resource, uint32_t mip) 
 
 Texels Lab::image(const FrameData& data, Index pass, Index resource, uint32_t mip) {
   const Dump bytes = dump(data, pass, resource, mip);
-  Texels texels{static_cast<int>(bytes.width), static_cast<int>(bytes.height), {}};
-  for (size_t i = 0; i + bytes.bytes_per_texel <= bytes.bytes.size() && bytes.bytes_per_texel > 0; i += bytes.bytes_per_texel)
-    texels.data.push_back(decode(static_cast<uint32_t>(bytes.format), bytes.bytes.data() + i));
-  return texels;
+  return {static_cast<int>(bytes.width), static_cast<int>(bytes.height), decode_texels(bytes)};
 }
 
 Lab& plaza_lab() {

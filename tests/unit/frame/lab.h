@@ -29,6 +29,9 @@ struct Texels {  // of an image, as floats, four to a texel
   glm::vec4 at(int x, int y) const { return data[static_cast<size_t>(y * width + x)]; }
 };
 
+// Four floats a texel, in the order of the dump; slices and layers one after the other.
+std::vector<glm::vec4> decode_texels(const Dump& dump);
+
 class Lab {
  public:
   explicit Lab(const Scene& scene, uint32_t width = kWidth, uint32_t height = kHeight);
