@@ -99,9 +99,11 @@ struct View {  // passes/view/view.rg:6
   uint32_t frame = 0;
   uint32_t debug_view = 0;
   uint32_t light_path = 0;
+  uint32_t forced_features = 0;
   uint32_t noise = 0;
+  uint32_t padding_0[3] = {};
 };
-static_assert(sizeof(View) == 512);
+static_assert(sizeof(View) == 528);
 static_assert(offsetof(View, world_to_clip) == 64);
 static_assert(offsetof(View, clip_to_world) == 128);
 static_assert(offsetof(View, steady_to_clip) == 192);
@@ -126,7 +128,8 @@ static_assert(offsetof(View, instance_count) == 492);
 static_assert(offsetof(View, frame) == 496);
 static_assert(offsetof(View, debug_view) == 500);
 static_assert(offsetof(View, light_path) == 504);
-static_assert(offsetof(View, noise) == 508);
+static_assert(offsetof(View, forced_features) == 508);
+static_assert(offsetof(View, noise) == 512);
 
 struct Light {  // passes/scene/scene.rg:24
   rg::vec3 position = {};

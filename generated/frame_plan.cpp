@@ -2641,7 +2641,7 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "camera", .bytes = 512},
+    {.name = "camera", .bytes = 528},
     {.name = "fog", .bytes = 112},
     {.name = "lamps", .bytes = 384},
 };

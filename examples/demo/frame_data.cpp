@@ -94,6 +94,7 @@ frame::View make_view(const Scene& scene, const NamedCamera& camera, const Frame
   view.frame = settings.number;
   view.debug_view = settings.debug_view;
   view.light_path = settings.light_path;
+  view.forced_features = settings.forced_features;
   view.noise = settings.noise ? 1 : 0;
   return view;
 }

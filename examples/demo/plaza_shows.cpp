@@ -33,6 +33,10 @@ void hang_screen(Workshop& shop, const std::string& name, vec3 middle, vec3 faci
   const vec3 side = glm::normalize(glm::cross(vec3(0, 1, 0), facing)), up = glm::cross(facing, side);
   MeshData panel;
   add_grid(panel, middle - (side + up) * half, side * (2 * half), up * (2 * half), 1, 1);
+  for (Vertex& v : panel.vertices) {  // the whole picture, once
+    v.u = glm::dot(v.position - middle, side) + half;
+    v.v = glm::dot(v.position - middle, up) + half;
+  }
   place(shop, name, material, std::move(panel));
   Light& light = add_lamp(shop, lamp::area, middle + facing * 0.01f, vec3(glow), range);
   light.direction = facing;

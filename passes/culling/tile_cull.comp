@@ -60,7 +60,8 @@ void main() {
   if (lane >= min(count, MAX_TILE_LIGHTS) && lane < MAX_TILE_LIGHTS) tile_records[tile].light[lane] = 0u;
   barrier();
   if (lane == 0u) {
-    tile_features[tile] = features;
+    // The other light paths meet lamps that the record does not list.
+    tile_features[tile] = features | (camera.light_path == LIGHT_PATH_RECORDS ? camera.forced_features : (1u << LAMP_FEATURES) - 1u);
     tile_records[tile].count = min(count, uint(MAX_TILE_LIGHTS));
     tile_records[tile].overflow = count - min(count, uint(MAX_TILE_LIGHTS));
   }

@@ -29,6 +29,7 @@ struct View {
   frame:            u32
   debug_view:       u32   // DEBUG_*
   light_path:       u32   // LIGHT_PATH_*
+  forced_features:  u32   // LAMP_* that every tile is shaded with, whether its lamps have them or not
   noise:            u32   // 0 stills every per-frame variation that is not camera jitter
 }
 
