@@ -131,12 +131,12 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   // ---- lights -----------------------------------------------------------------------------------------------------
   buffer zbin_min       : u32[ZBINS]
   buffer zbin_max       : u32[ZBINS]
-  buffer zbins          : u32[ZBINS]                                 // first light in the low half, last in the high half
-  buffer lights_seen    : u32[LIGHT_WORDS]                           // not hidden behind the depth pyramid
-  buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach what is opaque in the tile
-  buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]  // that reach anything in front of it
+  buffer zbins          : u32[ZBINS]                                  // first light in the low half, last in the high half
+  buffer lights_seen    : u32[LIGHT_WORDS]                            // not hidden behind the depth pyramid
+  buffer tile_lights    : u32[ceil(view / TILE).area * LIGHT_WORDS]   // that reach what is opaque in the tile
+  buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]   // that reach anything in front of it
   buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
-  buffer tile_features  : u32[ceil(view / SHADE_TILE).area]          // union of what the lamps of a record can do
+  buffer tile_features  : u32[ceil(view / SHADE_TILE).area] readback  // union of what the lamps of a record can do
 
   pass zbin_build : compute {
     shader "passes/culling/zbin_build.comp" group 64 1 1

@@ -12,6 +12,7 @@
 #include "examples/demo/png.h"
 #include "examples/demo/renderer.h"
 #include "examples/demo/report.h"
+#include "examples/demo/spectrum.h"
 
 namespace rg::demo {
 namespace {
@@ -105,6 +106,14 @@ Status measure_passes(Device& device, const Scene& scene, const DemoOptions& opt
   return Done{};
 }
 
+// The last frame's tiles count for the camera's scene.
+Status record_tiles(Renderer& renderer, const Shot& shot, std::vector<SpectrumScene>& scenes) {
+  const auto features = renderer.graph().tile_features();
+  if (!features) return features.error();
+  count_tiles(scenes.emplace_back(SpectrumScene{shot.camera->name, {}}), *features);
+  return Done{};
+}
+
 Status measure_frame(Renderer& renderer, const Scene& scene, const DemoOptions& options, const Shot& shot, Measurements& out) {
   const FrameData data = make_frame(scene, *shot.camera, settings_for(options, shot, options.frames));
   const auto start = std::chrono::steady_clock::now();
@@ -147,8 +156,14 @@ Status render_all(Device& device, const Scene& scene, const DemoOptions& options
   if (!shots) return shots.error();
   auto renderer = Renderer::create(device, scene, renderer_options(options));
   if (!renderer) return renderer.error();
-  for (const Shot& shot : *shots)
+  std::vector<SpectrumScene> tiles;
+  for (const Shot& shot : *shots) {
     if (Status taken = take(*renderer, scene, options, shot); !taken) return taken;
+    if (options.record_spectrum.empty() || shot.view != frame::DEBUG_FINAL) continue;
+    if (Status recorded = record_tiles(*renderer, shot, tiles); !recorded) return recorded;
+  }
+  if (!options.record_spectrum.empty())
+    if (Status written = write_spectrum(options.record_spectrum, tiles); !written) return written;
   Measurements measured;
   if (Status done = measure_frame(*renderer, scene, options, shots->front(), measured); !done) return done;
   if (Status done = look_inside(device, scene, options, shots->front()); !done) return done;

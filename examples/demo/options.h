@@ -18,6 +18,7 @@ struct DemoOptions {
   std::string trace, profile;      // files; empty: none
   uint32_t threads = 1;
   bool serial = false, poison = false;
+  std::string record_spectrum;     // a file for the feature masks of the tiles; empty: none
   int device = -1;
   bool validate = false, list_devices = false;
 };
