@@ -266,8 +266,8 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 256, .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
     {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
      .estimated_alignment = 256, .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
-    {.name = "tile_features", .kind = ResourceKind::buffer, .usage = 32, .bytes = 89, .stride = 4, .estimated_bytes = 3840,
-     .estimated_alignment = 256, .estimated_offset = 19021056, .line = 139, .file = "passes.rg"},
+    {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 89, .stride = 4,
+     .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 185, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
@@ -1223,7 +1223,7 @@ constexpr BufferBarrier kBufferBarriers[] = {
     {.buffer = {.resource = resource::forward_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> transparent
     {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> debug_view
+     .dst_stages = stage::compute_shader | stage::host, .dst_accesses = access::shader_storage_read | access::host_read},  // tile_cull -> debug_view
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // luminance.clear -> luminance
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1354,7 +1354,7 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::tile_features}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
@@ -1472,7 +1472,7 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::tile_features}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
      .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
@@ -1551,8 +1551,6 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 46},
     {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 48},
-    {.resource = resource::tile_features, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 50},
     {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
     {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
@@ -1564,14 +1562,14 @@ constexpr Acquire kAcquires[] = {
     {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 40},
     {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
+     .accesses = access::shader_storage_write, .point = 13, .first_clock = 50},
     {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 14, .first_clock = 54},
+     .accesses = access::shader_storage_write, .point = 14, .first_clock = 52},
     {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 21, .first_clock = 58},
-    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 60},
+     .accesses = access::shader_storage_write, .point = 21, .first_clock = 56},
+    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 58},
     {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 56},
+     .accesses = access::shader_storage_write, .point = 18, .first_clock = 54},
 };
 
 constexpr Release kReleases[] = {
@@ -1595,7 +1593,6 @@ constexpr Release kReleases[] = {
     {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
     {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::tile_features, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::albedo, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::normal, .stages = stage::compute_shader, .point = 22},
     {.resource = resource::material, .stages = stage::compute_shader, .point = 22},
@@ -1612,7 +1609,7 @@ constexpr Index kAliasClocks[] = {
     1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 6, 31, 6, 31,
     7, 31, 8, 31, 8, 31, 9, 31, 9, 31, 11, 31, 11, 31, 11, 31,
     11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 13, 31, 13, 31, 13, 31,
-    13, 31, 13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
+    13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
 };
 
 constexpr AliasPair kAliasPairs[] = {
@@ -1620,7 +1617,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::world_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::world_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::world_draws, .wraps = true},
-    {.before = resource::tile_features, .after = resource::world_draws, .wraps = true},
     {.before = resource::occlusion, .after = resource::world_draws, .wraps = true},
     {.before = resource::hdr, .after = resource::world_draws, .wraps = true},
     {.before = resource::debug_image, .after = resource::world_draws, .wraps = true},
@@ -1641,7 +1637,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::sun_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::sun_draws, .wraps = true},
-    {.before = resource::tile_features, .after = resource::sun_draws, .wraps = true},
     {.before = resource::albedo, .after = resource::sun_draws, .wraps = true},
     {.before = resource::normal, .after = resource::sun_draws, .wraps = true},
     {.before = resource::material, .after = resource::sun_draws, .wraps = true},
@@ -1667,7 +1662,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::forward_lights, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::tile_records, .after = resource::lamp_draws, .wraps = true},
-    {.before = resource::tile_features, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::albedo, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::normal, .after = resource::lamp_draws, .wraps = true},
     {.before = resource::material, .after = resource::lamp_draws, .wraps = true},
@@ -1700,7 +1694,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
-    {.before = resource::tile_features, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_cluster_volumes, .wraps = true},
@@ -1721,7 +1714,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_cluster_lights, .wraps = true},
-    {.before = resource::tile_features, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_cluster_lights, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_cluster_lights, .wraps = true},
@@ -1743,7 +1735,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_density, .wraps = true},
-    {.before = resource::tile_features, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_density, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_density, .wraps = true},
@@ -1764,7 +1755,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_inscatter, .wraps = true},
-    {.before = resource::tile_features, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_inscatter, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_inscatter, .wraps = true},
@@ -1785,7 +1775,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::tile_lights, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::forward_lights, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::tile_records, .after = resource::froxel_fog_extinction, .wraps = true},
-    {.before = resource::tile_features, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::albedo, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::normal, .after = resource::froxel_fog_extinction, .wraps = true},
     {.before = resource::material, .after = resource::froxel_fog_extinction, .wraps = true},
@@ -1866,14 +1855,6 @@ constexpr AliasPair kAliasPairs[] = {
     {.before = resource::froxel_fog_density, .after = resource::tile_records},
     {.before = resource::froxel_fog_inscatter, .after = resource::tile_records},
     {.before = resource::froxel_fog_extinction, .after = resource::tile_records},
-    {.before = resource::world_draws, .after = resource::tile_features},
-    {.before = resource::sun_draws, .after = resource::tile_features},
-    {.before = resource::lamp_draws, .after = resource::tile_features},
-    {.before = resource::froxel_fog_cluster_volumes, .after = resource::tile_features},
-    {.before = resource::froxel_fog_cluster_lights, .after = resource::tile_features},
-    {.before = resource::froxel_fog_density, .after = resource::tile_features},
-    {.before = resource::froxel_fog_inscatter, .after = resource::tile_features},
-    {.before = resource::froxel_fog_extinction, .after = resource::tile_features},
     {.before = resource::sun_draws, .after = resource::albedo},
     {.before = resource::lamp_draws, .after = resource::albedo},
     {.before = resource::froxel_fog_cluster_volumes, .after = resource::albedo},
@@ -2671,7 +2652,7 @@ constexpr Plan kPlan =
      .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders,
      .blends = kBlends, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers,
      .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .conditions = kConditions,
-     .estimated_heap_bytes = 19024896};
+     .estimated_heap_bytes = 19021056};
 
 }  // namespace
 
@@ -2726,6 +2707,12 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
 
 rg::Result<std::span<const uint32_t>> Frame::cull_counts() {
   const auto bytes = instance_.readback(resource::cull_counts);
+  if (!bytes) return bytes.error();
+  return rg::elements_of<uint32_t>(*bytes);
+}
+
+rg::Result<std::span<const uint32_t>> Frame::tile_features() {
+  const auto bytes = instance_.readback(resource::tile_features);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
