@@ -26,18 +26,44 @@ const Proof* signalled_by(const Reach& reach, uint32_t queue, int64_t number) {
   return best;
 }
 
+// The number a wait is for, counted like number_of. Before the first frame there may have been a frame of another plan, whose last signals take
+// the place of all.
+int64_t number_waited_for(const Model& model, const Executed& executed, const Scope& wait) {
+  if (executed.frame < wait.frames_ago) return 0;
+  return static_cast<int64_t>(executed.frame - wait.frames_ago) * model.signals_on[wait.other] + static_cast<int64_t>(wait.value);
+}
+
+bool is_waited_for(const Model& model, const Executed& executed, const Reach& reach, const Scope& wait) {
+  const int64_t number = number_waited_for(model, executed, wait);
+  return std::any_of(reach.signals.begin(), reach.signals.end(), [&](const SignalReach& s) { return s.queue == wait.other && s.number <= number; });
+}
+
+// The facts alone.
+void wait_plainly(const History& history, const Executed& executed, const Reach& reach, Updates& updates) {
+  const GroupNode& group = history.model.groups[executed.group];
+  updates.queue = group.queue;
+  for (const uint32_t id : group.scopes) {
+    const Scope& scope = history.model.scopes[id];
+    if (!is_waited_for(history.model, executed, reach, scope)) continue;
+    updates.reach |= scope.dst_later, updates.available = true;
+    for (uint32_t d = 0; d < kStageCount; ++d)
+      if (scope.dst & stage_bit(d)) updates.visible.to[d] |= supported(d);
+  }
+}
+
+bool is_signalled(const Reach& reach, uint32_t queue) {
+  return std::any_of(reach.signals.begin(), reach.signals.end(), [&](const SignalReach& s) { return s.queue == queue; });
+}
+
 // How a wait comes after the record; it may name a later signal than it needs.
 Alternatives source_of_wait(const History& history, const Executed& executed, uint32_t id, const Reach& reach) {
   const Scope& wait = history.model.scopes[id];
   Alternatives source;
-  // Before the first frame there may have been a frame of another plan, whose last signals take the place of all.
   const bool first = executed.frame < wait.frames_ago;
-  const int64_t number =
-      first ? 0 : static_cast<int64_t>(executed.frame - wait.frames_ago) * history.model.signals_on[wait.other] + static_cast<int64_t>(wait.value);
+  const int64_t number = number_waited_for(history.model, executed, wait);
   const Proof* now = signalled_by(reach, wait.other, number);
   if (!now) return source;
   source.proof = *now;
-  if (!history.proofs) return source;
   Proof value{atom_of(id, AtomField::value)};
   const Proof* before = first ? nullptr : signalled_by(reach, wait.other, number - 1);
   if (before) intersect(value, *before);
@@ -88,37 +114,59 @@ void signal(const History& history, const Executed& executed, WriteRecord& write
     const bool first = makes_available(scope, write);
     // The transition of a barrier that leads nowhere belongs to no stage; only all commands hold it.
     const bool transition = write.scope != kNone && write.queue == group.queue && (scope.raw_src & stage::all_commands);
-    Alternatives source;
-    if (write.available) add_chained_sources(scope, id, write.reach, source);
-    if (source.proof) source.proof = unite(*source.proof, write.reach.root);
-    if (first) source.add(availability_proof(scope, id, write));
-    if (transition) source.add({atom_of(write.scope, AtomField::whole)});
-    if (!source.proof) continue;
+    const bool chained = write.available && (write.reach.stages(group.queue) & scope.src_earlier);
+    if (!first && !transition && !chained) continue;
     write.available = true;
+    Alternatives source;
+    if (!history.proofs) source.add({});
+    if (history.proofs && chained) add_chained_sources(scope, id, write.reach, source);
+    if (source.proof) source.proof = unite(*source.proof, write.reach.root);
+    if (history.proofs && first) source.add(availability_proof(scope, id, write));
+    if (history.proofs && transition) source.add({atom_of(write.scope, AtomField::whole)});
     add_signal(history, write.reach, group.queue, number_of(history.model, scope, executed.frame),
                unite(*source.proof, {atom_of(id, AtomField::whole)}));
   }
+}
+
+// Nothing that the waits of the group could add, and nothing that still depends on single atoms.
+bool is_seen_by_all(const History& history, const GroupNode& group, const WriteRecord& write) {
+  if (!write.available || !write.proofs.empty() || (group.dst_later & ~write.reach.queues.get(group.queue).settled) != 0) return false;
+  for (const uint32_t id : group.scopes)
+    for (uint32_t d = 0; d < kStageCount; ++d)
+      if ((history.model.scopes[id].dst & stage_bit(d)) && (supported(d) & ~write.visible_to(group.queue, d))) return false;
+  return true;
 }
 
 }  // namespace
 
 void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate) {
   const GroupNode& group = history.model.groups[executed.group];
+  if (!history.proofs && group.kind == GroupKind::signals && is_signalled(fate.reach, group.queue)) return;
   if (group.kind == GroupKind::signals) return signal(history, executed, fate);
-  if (fate.reach.signals.empty()) return;
+  if (fate.reach.signals.empty() || (group.dst_later & ~fate.reach.queues.get(group.queue).settled) == 0) return;
   Updates updates;
+  if (!history.proofs) {
+    wait_plainly(history, executed, fate.reach, updates);
+    return commit(history, updates, fate.reach);
+  }
   wait(history, executed, fate.reach, fate.reach, updates, [&](uint32_t id, const Alternatives& source) {
     const Scope& scope = history.model.scopes[id];
-    updates.reach |= scope.dst_later;
-    if (history.proofs) add_reach(scope, id, *source.proof, fate.reach.queues.get(group.queue).settled, updates.new_reach);
+    add_reach(scope, id, *source.proof, fate.reach.queues.get(group.queue).settled, updates.new_reach);
   });
   commit(history, updates, fate.reach);
 }
 
 void apply_semaphores(const History& history, const Executed& executed, WriteRecord& write) {
-  if (history.model.groups[executed.group].kind == GroupKind::signals) return signal(history, executed, write);
+  const GroupNode& group = history.model.groups[executed.group];
+  if (!history.proofs && group.kind == GroupKind::signals && write.available && is_signalled(write.reach, group.queue)) return;
+  if (group.kind == GroupKind::signals) return signal(history, executed, write);
   if (write.reach.signals.empty()) return;
   Updates updates;
+  if (is_seen_by_all(history, group, write)) return;
+  if (!history.proofs) {
+    wait_plainly(history, executed, write.reach, updates);
+    return commit(history, updates, write);
+  }
   updates.available = wait(history, executed, write.reach, write, updates,
                            [&](uint32_t id, const Alternatives& source) { see(history, id, write, source, updates); });
   commit(history, updates, write);

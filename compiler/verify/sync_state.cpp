@@ -56,9 +56,12 @@ void apply(const History& history, const GroupNode& group, const std::vector<uin
   for (const uint32_t id : covering) {
     const Scope& scope = history.model.scopes[id];
     const bool first = makes_available(scope, write);
+    const bool chained = write.available && (write.reach.stages(group.queue) & scope.src_earlier);
+    if (!first && !chained) continue;
     Alternatives source;
-    if (write.available && (write.reach.stages(group.queue) & scope.src_earlier)) add_chained_sources(scope, id, write.reach, source);
-    if (first) source.add(rooted ? Proof{} : availability_proof(scope, id, write));
+    if (!history.proofs) source.add({});
+    if (history.proofs && chained) add_chained_sources(scope, id, write.reach, source);
+    if (history.proofs && first) source.add(rooted ? Proof{} : availability_proof(scope, id, write));
     updates.available = updates.available || first;
     see(history, id, write, source, updates);
   }
@@ -183,8 +186,8 @@ ReadRecord make_read(History& history, Site site, uint32_t pass, uint32_t frame,
   const uint32_t queue = site / kStageCount, stage = site % kStageCount;
   std::shared_ptr<ReadFate>& newest = history.newest[site];
   if (!newest || newest->born != history.executed_on[queue])
-    newest = std::make_shared<ReadFate>(
-        ReadFate{queue, stage, history.executed_on[queue], static_cast<uint32_t>(history.executed.size()), Reach(queue)});
+    newest =
+        std::make_shared<ReadFate>(ReadFate{queue, stage, history.executed_on[queue], static_cast<uint32_t>(history.executed.size()), Reach(queue)});
   return {queue, stage, pass, frame, order, false, newest};
 }
 
