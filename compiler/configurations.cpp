@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "dsl/features.h"
+
 namespace rg::compiler {
 namespace {
 
-constexpr uint32_t kFree = UINT32_MAX;
+constexpr uint32_t kFree = dsl::kFreeFeature;
 
 std::vector<bool> used_features(const dsl::Program& program, const dsl::Graph& graph) {
   std::vector<bool> used(program.features.size(), false);
@@ -32,49 +34,44 @@ bool fix(const dsl::Program& program, const std::string& text, Configuration& fi
   return false;
 }
 
-// For each feature either its one value, or kFree.
-Configuration decided(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, dsl::Diagnostics& diagnostics) {
+// For each feature the value it is fixed to, or kFree.
+Configuration decided(const dsl::Program& program, const std::vector<std::string>& fixed, dsl::Diagnostics& diagnostics) {
   Configuration values(program.features.size(), kFree);
-  const std::vector<bool> used = used_features(program, program.graphs[graph]);
-  for (size_t f = 0; f < values.size(); ++f)
-    if (!used[f]) values[f] = program.features.rows[f].initial;
   for (const std::string& text : fixed)
     if (!fix(program, text, values)) diagnostics.report(dsl::DiagnosticKind::UnknownFeatureValue, {}, {text});
   return values;
 }
 
-// How many configurations leave the kFree ones open; saturates above `limit`.
-size_t count(const dsl::Program& program, const Configuration& values, size_t limit) {
-  size_t product = 1;
-  for (size_t f = 0; f < values.size(); ++f) {
-    if (values[f] == kFree) product *= program.features.rows[f].values.size();
-    if (product > limit) return product;
+void report_too_many(const dsl::Program& program, const dsl::Graph& graph, const std::vector<bool>& open, size_t total, bool counted, size_t limit,
+                     dsl::Diagnostics& diagnostics) {
+  const std::string count = counted ? std::to_string(total) : "more than " + std::to_string(total);
+  dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::TooManyPlans, graph.span, {graph.name, count, std::to_string(limit)});
+  for (size_t f = 0; f < open.size(); ++f) {
+    const dsl::Feature& feature = program.features.rows[f];
+    if (open[f]) error.note(dsl::DiagnosticKind::FeatureMultiplies, feature.span, {feature.name, std::to_string(feature.values.size())});
   }
-  return product;
 }
 
 }  // namespace
 
 std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,
                                                  dsl::Diagnostics& diagnostics) {
-  const Configuration values = decided(program, graph, fixed, diagnostics);
-  const size_t total = count(program, values, limit);
-  if (total > limit) {
-    const dsl::Graph& row = program.graphs[graph];
-    diagnostics.report(dsl::DiagnosticKind::TooManyPlans, row.span, {row.name, std::to_string(total), std::to_string(limit)});
+  constexpr uint64_t kBudget = 1 << 18;  // steps of the search
+  const Configuration values = decided(program, fixed, diagnostics);
+  std::vector<bool> open = used_features(program, program.graphs[graph]);
+  for (size_t f = 0; f < open.size(); ++f) open[f] = open[f] && values[f] == kFree;
+  std::vector<Configuration> all;
+  size_t total = 0;
+  const bool counted = dsl::each_configuration(program.features, values, open, kBudget, [&](const Configuration& configuration) {
+    if (++total <= limit) all.push_back(configuration);
+    return true;
+  });
+  const dsl::Graph& row = program.graphs[graph];
+  if (total > limit || !counted) {
+    report_too_many(program, row, open, total, counted, limit, diagnostics);
     return {};
   }
-  std::vector<Configuration> all;
-  for (size_t index = 0; index < total; ++index) {
-    Configuration configuration = values;
-    size_t rest = index;
-    for (size_t f = values.size(); f-- > 0;) {
-      if (values[f] != kFree) continue;
-      configuration[f] = static_cast<uint32_t>(rest % program.features.rows[f].values.size());
-      rest /= program.features.rows[f].values.size();
-    }
-    all.push_back(std::move(configuration));
-  }
+  if (all.empty()) diagnostics.report(dsl::DiagnosticKind::NoConfiguration, row.span, {row.name});
   return all;
 }
 

@@ -9,8 +9,9 @@
 
 namespace rg::compiler {
 
-// Every combination of values of the features that `graph` depends on, in counting order, the first feature slowest; other features
-// keep their initial value. `fixed` holds "NAME=VALUE" of features decided at build time. Reports unknown names and more than `limit` plans.
+// Every combination of values of the features that `graph` depends on and that keeps the features' rules, in counting order, the first feature
+// slowest. Other features keep their initial value, or what the rules ask for. `fixed` holds "NAME=VALUE" of features decided at build time. Reports
+// unknown names, more than `limit` plans with the features that multiply them, and none at all.
 //
 //   feature fog: bool   feature quality: { low, high }      fixed {"fog=on"}  ->  {1, 0} {1, 1}
 std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,

@@ -30,9 +30,11 @@ PlanIndices number_rows(const PlanParts& parts, PlanData& plan) {
 void emit_program_tables(const PlanParts& parts, const PlanIndices& indices, PlanData& plan) {
   const dsl::Program& program = *parts.frame.program;
   for (const dsl::Extent& extent : program.extents) {
-    Extent row{intern(extent.name), extent.axes, {}, {}};
+    Extent row;
+    row.name = intern(extent.name), row.axes = extent.axes;
     std::copy(extent.initial, extent.initial + 3, row.initial);
     std::copy(extent.maximum, extent.maximum + 3, row.maximum);
+    std::copy(extent.minimum, extent.minimum + 3, row.minimum);
     plan.extents.push_back(row);
   }
   for (const dsl::Condition& condition : program.conditions) plan.conditions.push_back(intern(condition.name));

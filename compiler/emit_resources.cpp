@@ -7,6 +7,14 @@ namespace {
 
 constexpr uint32_t kTransferTarget = 0x2;  // of images and of buffers
 
+// Storage of a buffer of texels goes through a view, not through a block.
+uint32_t use_bits(const dsl::Pass& pass, const dsl::Access& access, const dsl::Resource& resource) {
+  constexpr uint32_t kStorageTexels = 0x8;
+  const bool texels = resource.kind == dsl::ResourceKind::buffer && resource.format != dsl::Format::none;
+  if (texels && access.role == dsl::Role::storage) return kStorageTexels;
+  return usage_of(pass, access.role, resource.kind, format_row(resource.format).aspects);
+}
+
 // What live passes do with each resource, as usage flags.
 std::vector<uint32_t> find_usage(const PlanParts& parts) {
   const Frame& frame = parts.frame;
@@ -14,7 +22,7 @@ std::vector<uint32_t> find_usage(const PlanParts& parts) {
   for (const uint32_t pass : parts.schedule.order)
     for (const dsl::Access& access : frame.pass(pass).accesses) {
       const dsl::Resource& resource = frame.graph->resources[access.resource];
-      usage[access.resource.value] |= usage_of(frame.pass(pass), access.role, resource.kind, format_row(resource.format).aspects);
+      usage[access.resource.value] |= use_bits(frame.pass(pass), access, resource);
     }
   for (uint32_t r = 0; r < usage.size(); ++r)
     if (frame.graph->resources.rows[r].init == dsl::InitKind::clear) usage[r] |= kTransferTarget;
@@ -49,15 +57,26 @@ Resource make_row(const PlanParts& parts, uint32_t program_index, Expressions& e
   return row;
 }
 
+// Images that some live pass sees in another format.
+std::vector<bool> find_reinterpreted(const PlanParts& parts) {
+  std::vector<bool> found(parts.frame.graph->resources.size());
+  for (uint32_t pass = 0; pass < parts.frame.passes.size(); ++pass)
+    for (const dsl::Access& access : parts.frame.pass(pass).accesses)
+      if (access.view != dsl::Format::none) found[access.resource.value] = true;
+  return found;
+}
+
 }  // namespace
 
 void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
   const std::vector<uint32_t> usage = find_usage(parts);
+  const std::vector<bool> reinterpreted = find_reinterpreted(parts);
   const std::vector<Index> slots = import_slots(*parts.frame.graph);
   for (uint32_t r = 0; r < indices.resource.size(); ++r) {
     if (indices.resource[r] == kNone) continue;
     Resource row = make_row(parts, r, exprs);
     row.usage = usage[r];
+    row.mutable_format = reinterpreted[r];
     row.import_slot = slots[r];
     row.concurrent = parts.sync.concurrent[r];
     if (row.lifetime == rg::Lifetime::transient)

@@ -117,6 +117,7 @@ Use make_use(const Frame& frame, uint32_t pass_index, const dsl::Access& access,
   const Cell& cell = frame.cells[cell_index];
   Use use{pass_index, cell_index, effect_of(pass, access, cell.range.aspects), needs_contents(pass, access), defines_range(pass, access),
           Share::none};
+  if (frame.resource_of(cell_index).layout_general && access.role != dsl::Role::present) use.effect.layout = Layout::general;
   if (use.writes() && (partial || may_skip(frame, pass_index, cell))) use.needs = true, use.defines = false;
   if (access.mode == dsl::Mode::atomic) use.share = Share::atomic;
   if (access.disjoint) use.share = Share::disjoint;

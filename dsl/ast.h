@@ -52,6 +52,7 @@ enum class ExprKind : uint8_t {
   sub,
   mul,
   div,
+  mod,
 };
 struct Expr {
   ExprKind kind = ExprKind::error;
@@ -81,13 +82,17 @@ struct Target {
   double version = 0;
   Span span;
 };
+struct ProfileTarget {  // `target profile "profiles/desktop.json"`
+  std::string_view path;
+  Span span;
+};
 struct Constant {
   Name name;
   Expr value;
 };
 struct ExtentDeclaration {
   Name name;
-  std::vector<Expr> initial, maximum;
+  std::vector<Expr> initial, minimum, maximum;
   Span span;
 };
 struct FieldDeclaration {
@@ -114,13 +119,25 @@ struct StateDeclaration {
   Name name;
   std::vector<Setting> settings;
 };
+struct FeatureTerm {  // `fog`, `not fog`, `path == low`, `path != low`
+  Name feature, value;
+  bool negated = false;
+  Span span;
+};
+struct FeatureRule {  // `requires TERM`, `excludes TERM`: of the feature where it is on, or of one of its values
+  Name value;         // empty: on
+  FeatureTerm term;
+  bool excludes = false;
+};
 struct FeatureDeclaration {
   Name name;
   bool is_bool = true;
   std::vector<Name> values;
+  std::vector<FeatureRule> rules;
 };
 struct ConditionDeclaration {
   Name name;
+  Boxed<Expr> count;  // `condition cache_miss[8]`
 };
 struct EngineSetDeclaration {
   Name name;
@@ -254,13 +271,13 @@ struct For {
   Span span;
 };
 struct When {
-  Name feature, value;
-  bool negated = false;
+  FeatureTerm term;
   std::vector<Item> body, otherwise;
   Span span;
 };
 struct IfHost {
   Name condition;
+  Boxed<Expr> index;
   std::vector<Item> body;
   Span span;
 };
@@ -276,9 +293,9 @@ struct Item {
 struct Parameter {
   enum class Kind : uint8_t { params, surface, interface, image, buffer, constant } kind = Kind::interface;
   Name name;
-  Expr type;                    // struct or interface
-  ResourceDeclaration surface;  // surface
-  bool writable = false;        // `inout`: image and buffer parameters of a technique
+  Expr type;                                                                    // struct or interface
+  ResourceDeclaration surface;                                                  // surface
+  enum class Direction : uint8_t { in, out, inout } direction = Direction::in;  // image and buffer parameters of a technique
   Span span;
 };
 struct GraphDeclaration {  // or, as `technique`, a piece of one
@@ -295,11 +312,13 @@ struct File {
   FileId file;
   Name module;
   std::optional<Target> target;
+  std::vector<ProfileTarget> profiles;
   std::vector<Import> imports;
   std::vector<Declaration> declarations;
-  bool has_error = false;       // something did not parse
-  bool lost_names = false;      // ... and it was a declaration: unknown names may be our fault
-  bool lost_structure = false;  // braces do not match
+  std::vector<Name> private_words;  // of each declaration; empty: other modules see it
+  bool has_error = false;           // something did not parse
+  bool lost_names = false;          // ... and it was a declaration: unknown names may be our fault
+  bool lost_structure = false;      // braces do not match
 };
 
 }  // namespace rg::dsl::ast

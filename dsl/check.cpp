@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "dsl/check_state.h"
+#include "dsl/paths.h"
 
 namespace rg::dsl {
 namespace {
 
 void add_constant(Checker& checker, uint32_t symbol) {
   const Value& value = constant_value(checker, symbol);
-  if (!value.known_integer()) return;
+  if (!value.known_integer() || checker.symbols[symbol].is_private) return;  // private ones reach neither shaders nor C++
   const ast::Name name = checker.symbols[symbol].name;
   if (!claim_public_name(checker, name)) return;
   checker.program.constants.push_back({std::string(name.text), value.at[0].value});
@@ -47,6 +48,21 @@ void check_symbol(Checker& checker, uint32_t symbol) {
   }
 }
 
+// Named here, read by the compiler: what a profile promises is Vulkan's business. Any module may name one; all count.
+void add_profiles(Checker& checker, const Module& module) {
+  for (const ast::ProfileTarget& node : module.tree.profiles) {
+    const auto path = join_inside(module.folder, node.path);
+    if (!path) {
+      checker.report(DiagnosticKind::ImportEscapes, node.span, {std::string(node.path)});
+      continue;
+    }
+    Profile profile;
+    profile.name = *path;
+    profile.span = node.span;
+    checker.program.profiles.push_back(std::move(profile));
+  }
+}
+
 void check_target(Checker& checker, const ast::File& file) {
   if (!file.target || file.target->api.empty()) return;
   const double version = file.target->version;
@@ -56,12 +72,13 @@ void check_target(Checker& checker, const ast::File& file) {
 }  // namespace
 
 Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
-  Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, false};
+  Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, {}, false};
   checker.lost_names = std::any_of(modules.begin(), modules.end(), [](const Module& module) { return module.tree.lost_names; });
   checker.program.module = modules.back().name;
   collect_names(checker);
-  for (const Module& module : modules) check_target(checker, module.tree);
+  for (const Module& module : modules) check_target(checker, module.tree), add_profiles(checker, module);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol) check_symbol(checker, symbol);
+  check_features(checker);
   for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol)
     if (checker.symbols[symbol].kind == SymbolKind::graph && !modules[checker.symbols[symbol].module].tree.lost_structure)
       check_graph(checker, symbol);

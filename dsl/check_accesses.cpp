@@ -221,13 +221,25 @@ void read_clear(Builder& at) {
   if (at.node.clear && at.ok) at.access.clear = clear_value(at.checker, at.scope, *at.node.clear, *at.resource, at.access.range.aspects);
 }
 
+void check_port(Builder& at, const Place& place) {
+  if (!place.port || place.age > 0 || !at.ok) return;
+  const bool needs_earlier = at.access.mode != Mode::write && !at.access.clear;
+  const std::string name(place.port->name);
+  if (needs_earlier && !place.port->written && at.out.pass.draw.kind != DrawKind::fullscreen)
+    return at.checker.report(DiagnosticKind::PortReadFirst, at.node.span, {name}).note(DiagnosticKind::DeclaredHere, place.port->span, {name}),
+           void(at.ok = false);
+  if (at.access.mode != Mode::read) place.port->written = true;
+}
+
 uint32_t commit(PassScope& out, Access access) {
   limit_mips(out, access);
   out.pass.accesses.push_back(std::move(access));
   return static_cast<uint32_t>(out.pass.accesses.size() - 1);
 }
 
-bool same_range(const Access& a, const Access& b) { return a.resource == b.resource && a.age == b.age && a.range == b.range && a.role == b.role; }
+bool same_range(const Access& a, const Access& b) {
+  return a.resource == b.resource && a.age == b.age && a.range == b.range && a.role == b.role && a.view == b.view;
+}
 
 void merge_into(Access& first, const Access& second) {
   if (second.mode == Mode::read) return;
@@ -266,6 +278,7 @@ std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScop
   at.access.resource = place.resource;
   at.access.range = place.range;
   at.access.age = place.age;
+  at.access.view = place.view;
   at.access.span = statement.span;
   at.access.name = statement.rename.empty() ? place.default_name : std::string(statement.rename.text);
   at.access.covers = statement.covers;
@@ -280,6 +293,7 @@ std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScop
   read_blend(at);
   read_clear(at);
   at.access.mode = mode_of(at);
+  check_port(at, place);
   if (statement.usage) at.access.stages = find_stages(checker, statement.usage->stages);
   if (!at.ok) return out.dropped = scope.incomplete = true, std::nullopt;
   return commit(out, std::move(at.access));
@@ -290,6 +304,7 @@ uint32_t add_plain_access(GraphScope& scope, PassScope& out, const Place& place,
   access.resource = place.resource;
   access.range = place.range;
   access.age = place.age;
+  access.view = place.view;
   access.mode = mode;
   access.role = role;
   access.name = place.default_name;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dsl/check_state.h"
+#include "dsl/print.h"
 
 namespace rg::dsl {
 namespace {
@@ -53,61 +54,87 @@ void visit(Walker at, const ast::For& node) {
   at.scope.bindings.pop_back();
 }
 
-std::optional<uint32_t> value_index(Walker at, const ast::When& node, const Feature& feature) {
-  const bool is_bool = feature.values.size() == 2 && feature.values[0] == "off" && feature.values[1] == "on";
-  if (node.value.empty() && is_bool) return 1;
-  if (node.value.empty()) {
-    at.checker.report(DiagnosticKind::FeatureNeedsValue, node.feature.span, {feature.name});
-    return std::nullopt;
-  }
-  const auto found = std::find(feature.values.begin(), feature.values.end(), node.value.text);
-  if (found != feature.values.end()) return static_cast<uint32_t>(found - feature.values.begin());
-  const std::vector<std::string_view> candidates(feature.values.begin(), feature.values.end());
-  Diagnostic diagnostic(DiagnosticKind::UnknownName, node.value.span, {"value of feature `" + feature.name + "`", std::string(node.value.text)});
-  const std::string guess = closest(node.value.text, candidates);
-  if (!guess.empty()) diagnostic.fix(node.value.span, guess);
-  at.checker.diagnostics.report(std::move(diagnostic));
-  return std::nullopt;
-}
-
-Guard::Term term_of(FeatureId id, const Feature& feature, uint32_t value, bool negated) {
-  if (feature.values.size() == 2 && negated) return {id, 1 - value, false};  // the other value
-  return {id, value, negated};
-}
-
-void walk_guarded(Walker at, Guard::Term term, const std::vector<ast::Item>& items) {
+// What no feasible choice of features selects is checked, but a warning: nobody can ever see it run.
+void walk_guarded(Walker at, Guard::Term term, const ast::When& node, const std::vector<ast::Item>& items) {
+  const bool was_reachable = is_reachable(at.checker, at.scope.guard);
   at.scope.guard.terms.push_back(term);
+  if (at.phase == Phase::passes && !items.empty() && was_reachable && !is_reachable(at.checker, at.scope.guard))
+    at.checker.report(DiagnosticKind::NeverPlanned, node.term.span, {&items == &node.body ? "`when`" : "`else`"});
   walk(at, items);
   at.scope.guard.terms.pop_back();
 }
 
 void visit(Walker at, const ast::When& node) {
-  const auto symbol = find_symbol(at.checker, at.scope.module, node.feature, SymbolKind::feature);
-  if (!symbol) return void(at.scope.incomplete = true);
-  const FeatureId id = feature_of(at.checker, *symbol);
-  const Feature feature = at.checker.program.features[id];
-  const auto value = value_index(at, node, feature);
-  if (!value) return void(at.scope.incomplete = true);
-  walk_guarded(at, term_of(id, feature, *value, node.negated), node.body);
-  walk_guarded(at, term_of(id, feature, *value, !node.negated), node.otherwise);
+  const auto term = feature_term(at.checker, at.scope.module, node.term);
+  if (!term) return void(at.scope.incomplete = true);
+  walk_guarded(at, *term, node, node.body);
+  walk_guarded(at, opposite(at.checker, *term), node, node.otherwise);
+}
+
+// `cache_miss[slot]`: the row of that index.
+std::optional<ConditionId> condition_at(Walker at, const ast::IfHost& node, ConditionId first) {
+  if (!first.valid()) return std::nullopt;
+  const std::string name(node.condition.text);
+  const uint32_t count = at.checker.program.conditions[first].count;
+  const Span declared = at.checker.program.conditions[first].span;
+  if (!node.index && count == 0) return first;
+  if (!node.index || count == 0) {
+    at.checker.report(count == 0 ? DiagnosticKind::NotIndexed : DiagnosticKind::NeedsIndex, node.condition.span, {name})
+        .note(DiagnosticKind::DeclaredHere, declared, {name});
+    return std::nullopt;
+  }
+  const auto index = evaluate_integer(at.checker, &at.scope, at.scope.module, *node.index, INT32_MIN, INT32_MAX);
+  if (!index) return std::nullopt;
+  if (*index >= 0 && *index < count) return ConditionId{first.value + static_cast<size_t>(*index)};
+  at.checker.report(DiagnosticKind::IndexNotDeclared, node.index->span, {name, std::to_string(*index)})
+      .note(DiagnosticKind::DeclaredHere, declared, {name});
+  return std::nullopt;
 }
 
 void visit(Walker at, const ast::IfHost& node) {
   const auto symbol = find_symbol(at.checker, at.scope.module, node.condition, SymbolKind::condition);
   if (!symbol) return void(at.scope.incomplete = true);
-  at.scope.conditions.push_back(condition_of(at.checker, *symbol));
+  const auto condition = condition_at(at, node, condition_of(at.checker, *symbol));
+  if (!condition) return void(at.scope.incomplete = true);
+  at.scope.conditions.push_back(*condition);
   walk(at, node.body);
   at.scope.conditions.pop_back();
 }
 
-bool bind_place(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, Binding& binding) {
+// `image source: rgba16f`, `buffer weights: f32`: the type of a port, if it says one.
+bool port_fits(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, const Resource& resource, uint32_t module) {
+  if (parameter.type.kind == ast::ExprKind::error) return true;
+  std::string has, wanted = spelled(parameter.type);
+  if (resource.kind == ResourceKind::image) {
+    has = name(resource.format);
+    if (find_format(wanted) == Format::none) {
+      at.checker.report(DiagnosticKind::UnknownFormat, parameter.type.span, {wanted});
+      return false;
+    }
+  } else {
+    ast::TypeName type;
+    type.name = parameter.type;
+    const auto element = element_type(at.checker, module, type);
+    if (!element) return false;
+    has = print_type(at.checker.program, resource.element);
+    wanted = print_type(at.checker.program, *element);
+  }
+  if (has == wanted) return true;
+  at.checker.report(DiagnosticKind::PortFormat, argument.span, {std::string(parameter.name.text), wanted, resource.name, has})
+      .note(DiagnosticKind::DeclaredHere, parameter.span, {std::string(parameter.name.text)})
+      .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
+  return false;
+}
+
+bool bind_place(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, Binding& binding, uint32_t module) {
   binding.kind = Binding::Kind::place;
-  binding.writable = parameter.writable;
+  binding.writable = parameter.direction != ast::Parameter::Direction::in;
+  binding.is_out = parameter.direction == ast::Parameter::Direction::out;
   binding.place = find_place(at.checker, at.scope, argument);
   if (!binding.place.ok()) return false;
   const Resource& resource = at.scope.graph.resources[binding.place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
-  if (is_image == (parameter.kind == ast::Parameter::Kind::image)) return true;
+  if (is_image == (parameter.kind == ast::Parameter::Kind::image)) return port_fits(at, parameter, argument, resource, module);
   at.checker.report(DiagnosticKind::ArgumentKind, argument.span,
                     {resource.name, is_image ? "an image" : "a buffer", std::string(parameter.name.text), is_image ? "a buffer" : "an image"});
   return false;
@@ -121,11 +148,11 @@ bool bind_params(Walker at, const ast::Expr& argument, Binding& binding) {
   return false;
 }
 
-bool bind_argument(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, Binding& binding) {
+bool bind_argument(Walker at, const ast::Parameter& parameter, const ast::Expr& argument, Binding& binding, uint32_t module) {
   binding.name = parameter.name.text;
   binding.span = parameter.span;
   using Kind = ast::Parameter::Kind;
-  if (parameter.kind == Kind::image || parameter.kind == Kind::buffer) return bind_place(at, parameter, argument, binding);
+  if (parameter.kind == Kind::image || parameter.kind == Kind::buffer) return bind_place(at, parameter, argument, binding, module);
   if (parameter.kind == Kind::params) return bind_params(at, argument, binding);
   if (parameter.kind != Kind::constant) {
     at.checker.report(DiagnosticKind::ParameterOfGraph, parameter.span, {std::string(parameter.name.text)});
@@ -136,7 +163,7 @@ bool bind_argument(Walker at, const ast::Parameter& parameter, const ast::Expr& 
   return value.has_value();
 }
 
-std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& node, const ast::GraphDeclaration& technique) {
+std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& node, const ast::GraphDeclaration& technique, uint32_t module) {
   if (node.arguments.size() != technique.parameters.size()) {
     at.checker.report(DiagnosticKind::WrongArgumentCount, node.span, {spelled(node.technique), std::to_string(node.arguments.size())})
         .note(DiagnosticKind::DeclaredHere, technique.name.span, {std::string(technique.name.text)});
@@ -145,10 +172,21 @@ std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& no
   std::vector<Binding> bindings;
   for (size_t i = 0; i < node.arguments.size(); ++i) {
     Binding binding;
-    if (!bind_argument(at, technique.parameters[i], node.arguments[i], binding)) return std::nullopt;
+    if (!bind_argument(at, technique.parameters[i], node.arguments[i], binding, module)) return std::nullopt;
     bindings.push_back(std::move(binding));
   }
   return bindings;
+}
+
+// What is declared `out` leaves the technique defined, and so the port it is bound to, if that is one.
+void check_ports(Walker at, const ast::GraphDeclaration& technique) {
+  if (at.phase != Phase::passes) return;
+  for (Binding& binding : at.scope.bindings) {
+    if (!binding.is_out || binding.kind != Binding::Kind::place) continue;
+    if (binding.written && binding.place.port) binding.place.port->written = true;
+    if (binding.written || at.scope.incomplete) continue;
+    at.checker.report(DiagnosticKind::PortNotWritten, binding.span, {std::string(binding.name), std::string(technique.name.text)});
+  }
 }
 
 // A technique sees its parameters and its own module, not the names around the `use`.
@@ -161,10 +199,23 @@ void walk_instance(Walker at, const Symbol& symbol, const ast::GraphDeclaration&
   at.scope.prefix += instance + ".";
   ++at.scope.use_depth;
   walk(at, technique.body);
+  check_ports(at, technique);
   --at.scope.use_depth;
   at.scope.prefix = prefix;
   at.scope.module = module;
   std::swap(at.scope.bindings, bindings);
+}
+
+// What is wrong inside a technique may be so only for what this `use` gives it.
+void note_use(Walker at, size_t first, const ast::Use& node, const std::string& technique) {
+  if (first == at.checker.diagnostics.rows().size()) return;
+  Diagnostics noted;
+  for (size_t i = 0; i < at.checker.diagnostics.rows().size(); ++i) {
+    Diagnostic row = at.checker.diagnostics.rows()[i];
+    if (i >= first) row.note(DiagnosticKind::AccessUsedHere, node.span, {technique});
+    noted.report(std::move(row));
+  }
+  at.checker.diagnostics = std::move(noted);
 }
 
 void visit(Walker at, const ast::Use& node) {
@@ -177,10 +228,12 @@ void visit(Walker at, const ast::Use& node) {
     return void(at.scope.incomplete = true);
   }
   if (!count_unrolled(at, 1, node.span)) return;
-  auto bindings = bind_arguments(at, node, technique);
+  auto bindings = bind_arguments(at, node, technique, symbol.module);
   if (!bindings || technique.has_error) return void(at.scope.incomplete = true);
   const std::string instance(node.instance.empty() ? symbol.name.text : node.instance.text);
+  const size_t told = at.checker.diagnostics.rows().size();
   walk_instance(at, symbol, technique, std::move(*bindings), instance);
+  note_use(at, told, node, std::string(symbol.name.text));
 }
 
 std::string argument_name(Walker at, const ast::Expr& expr) {
@@ -231,6 +284,7 @@ void finish_graph(Checker& checker, GraphScope& scope) {
   for (const Graph& other : checker.program.graphs)
     if (other.name == scope.graph.name) return;
   if (!scope.incomplete) {
+    carry_forward(scope.graph, find_carried(checker, scope.graph));
     check_definitions(checker, scope.graph);
     check_unused(checker, scope);
     check_block_layouts(checker, scope.graph);

@@ -4,9 +4,9 @@
 // guards and conditions it has been written for certain. A pass that touches mip m of an image runs only at extents where the image has that
 // mip: what it writes is certain for readers that need the same mip, and for the mips that vanish with it.
 #include <algorithm>
-#include <map>
 
 #include "dsl/check_state.h"
+#include "dsl/features.h"
 
 namespace rg::dsl {
 namespace {
@@ -38,8 +38,8 @@ struct Walk {
   Checker& checker;
   const Graph& graph;
   std::vector<Tracked> tracked;
-  std::vector<Feature> features;
   std::vector<bool> reported;  // by resource: its first bad read is enough
+  std::vector<bool> written;   // by resource: some pass writes it, perhaps
 };
 
 bool implies(const std::vector<ConditionId>& reader, const std::vector<ConditionId>& writer) {
@@ -52,43 +52,21 @@ bool implies(const std::vector<MipLimit>& reader, const std::vector<MipLimit>& w
   });
 }
 
-using Configuration = std::map<uint32_t, uint32_t>;  // feature -> value
-
-bool holds(const Guard& guard, const Configuration& configuration) {
-  return std::all_of(guard.terms.begin(), guard.terms.end(), [&](const Guard::Term& term) {
-    const auto at = configuration.find(term.feature.value);
-    return at != configuration.end() && (at->second == term.value) != term.negated;
+// Tries every feasible configuration of the features that matter; where they are too many only unconditional facts count.
+bool every_configuration(const Walk& walk, const std::vector<bool>& matters, const Guard& reader, const std::vector<const Fact*>& facts) {
+  constexpr uint64_t kBudget = 16384;
+  const auto& features = walk.checker.program.features;
+  const FeatureValues free(features.size(), kFreeFeature);
+  return each_configuration(features, free, matters, kBudget, [&](const FeatureValues& values) {
+    return !holds(reader, values) || std::any_of(facts.begin(), facts.end(), [&](const Fact* fact) { return holds(fact->guard, values); });
   });
-}
-
-// Tries every configuration of the features that matter; more than the limit counts as covered only by unconditional facts.
-bool every_configuration(const Walk& walk, const std::vector<uint32_t>& features, const Guard& reader, const std::vector<const Fact*>& facts) {
-  constexpr uint64_t kMaxConfigurations = 4096;
-  uint64_t count = 1;
-  for (const uint32_t feature : features) {
-    count *= walk.features[feature].values.size();
-    if (count > kMaxConfigurations) return false;
-  }
-  for (uint64_t index = 0; index < count; ++index) {
-    Configuration configuration;
-    uint64_t rest = index;
-    for (const uint32_t feature : features) {
-      const uint64_t values = walk.features[feature].values.size();
-      configuration[feature] = static_cast<uint32_t>(rest % values);
-      rest /= values;
-    }
-    if (!holds(reader, configuration)) continue;
-    if (std::none_of(facts.begin(), facts.end(), [&](const Fact* fact) { return holds(fact->guard, configuration); })) return false;
-  }
-  return true;
 }
 
 bool covers(const Walk& walk, const std::vector<const Fact*>& facts, const Fact& reader) {
   std::vector<const Fact*> usable;
-  std::vector<uint32_t> features;
+  std::vector<bool> matters(walk.checker.program.features.size(), false);
   const auto mention = [&](const Guard& guard) {
-    for (const Guard::Term& term : guard.terms)
-      if (std::find(features.begin(), features.end(), term.feature.value) == features.end()) features.push_back(term.feature.value);
+    for (const Guard::Term& term : guard.terms) matters[term.feature.value] = true;
   };
   for (const Fact* fact : facts) {
     if (!implies(reader.conditions, fact->conditions) || !implies(reader.limits, fact->limits)) continue;
@@ -98,7 +76,7 @@ bool covers(const Walk& walk, const std::vector<const Fact*>& facts, const Fact&
   }
   if (usable.empty()) return false;
   mention(reader.guard);
-  return every_configuration(walk, features, reader.guard, usable);
+  return every_configuration(walk, matters, reader.guard, usable);
 }
 
 void add_facts(const Cell& cell, std::vector<const Fact*>& facts) {
@@ -293,6 +271,7 @@ void write(Walk& walk, uint32_t pass, const Access& access, const Fact& writer) 
   const Resource& resource = walk.graph.resources[access.resource];
   Tracked& tracked = walk.tracked[access.resource.value];
   const bool certain = access.mode == Mode::write || access.clear;
+  walk.written[access.resource.value] = true;
   if (!certain || !writer.always()) tracked.may.push_back(pass);
   if (!certain) return;
   if (resource.kind == ResourceKind::image)
@@ -307,21 +286,22 @@ Range whole_range(const Resource& resource) {
   return range;
 }
 
-// Versions rotate: a frame that leaves holes would show contents of frames ago.
-void check_history(Walk& walk, ResourceId id) {
-  const Resource& resource = walk.graph.resources[id];
-  if (resource.lifetime != Lifetime::history || walk.reported[id.value]) return;
-  Access access;
-  access.resource = id;
-  access.range = whole_range(resource);
-  if (is_defined(walk, access, Fact{resource.guard, {}, {}})) return;
-  Diagnostic diagnostic(DiagnosticKind::HistoryNotWritten, resource.span, {resource.name});
-  const Tracked& tracked = walk.tracked[id.value];
-  if (!tracked.may.empty()) {
-    const Pass& writer = walk.graph.passes.rows[tracked.may.back()];
-    diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
+// The histories that some frame may leave as they were. What nothing writes at all is a mistake.
+std::vector<ResourceId> find_carried(Walk& walk) {
+  std::vector<ResourceId> carried;
+  for (uint32_t id = 0; id < walk.graph.resources.size(); ++id) {
+    const Resource& resource = walk.graph.resources.rows[id];
+    if (resource.lifetime != Lifetime::history) continue;
+    Access access;
+    access.resource = ResourceId{size_t{id}};
+    access.range = whole_range(resource);
+    if (is_defined(walk, access, Fact{resource.guard, {}, {}})) continue;
+    if (walk.written[id])
+      carried.push_back(access.resource);
+    else
+      walk.checker.report(DiagnosticKind::HistoryNotWritten, resource.span, {resource.name});
   }
-  walk.checker.diagnostics.report(std::move(diagnostic));
+  return carried;
 }
 
 // An image of constant size always has the mips it declares.
@@ -334,21 +314,35 @@ std::vector<MipLimit> effective_limits(const Walk& walk, const Pass& pass) {
   return limits;
 }
 
-}  // namespace
-
-void check_definitions(Checker& checker, const Graph& graph) {
-  Walk walk{checker, graph, {}, checker.program.features.rows, {}};
+Walk start(Checker& checker, const Graph& graph) {
+  Walk walk{checker, graph, {}, {}, {}};
   walk.tracked.resize(graph.resources.size());
   walk.reported.resize(graph.resources.size());
+  walk.written.resize(graph.resources.size());
   for (uint32_t id = 0; id < graph.resources.size(); ++id)
     if (defined_from_start(graph.resources.rows[id])) walk.tracked[id].whole.always = true;
+  return walk;
+}
+
+Fact when(const Walk& walk, const Pass& pass) { return {pass.guard, pass.conditions, effective_limits(walk, pass)}; }
+
+}  // namespace
+
+std::vector<ResourceId> find_carried(Checker& checker, const Graph& graph) {
+  Walk walk = start(checker, graph);
+  for (uint32_t pass = 0; pass < graph.passes.size(); ++pass)
+    for (const Access& access : graph.passes.rows[pass].accesses) write(walk, pass, access, when(walk, graph.passes.rows[pass]));
+  return find_carried(walk);
+}
+
+void check_definitions(Checker& checker, const Graph& graph) {
+  Walk walk = start(checker, graph);
   for (uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
     const Pass& row = graph.passes.rows[pass];
-    const Fact when{row.guard, row.conditions, effective_limits(walk, row)};
-    for (const Access& access : row.accesses) read(walk, pass, access, when);
-    for (const Access& access : row.accesses) write(walk, pass, access, when);
+    const Fact fact = when(walk, row);
+    for (const Access& access : row.accesses) read(walk, pass, access, fact);
+    for (const Access& access : row.accesses) write(walk, pass, access, fact);
   }
-  for (uint32_t id = 0; id < graph.resources.size(); ++id) check_history(walk, ResourceId{size_t{id}});
 }
 
 }  // namespace rg::dsl

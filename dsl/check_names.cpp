@@ -27,7 +27,9 @@ Named name_of(const ast::Declaration& declaration) {
 
 void collect_own_names(Checker& checker, uint32_t module) {
   auto& names = checker.own_names[module];
-  for (const ast::Declaration& declaration : checker.modules[module].tree.declarations) {
+  const ast::File& tree = checker.modules[module].tree;
+  for (size_t i = 0; i < tree.declarations.size(); ++i) {
+    const ast::Declaration& declaration = tree.declarations[i];
     const Named found = name_of(declaration);
     if (found.name.empty()) continue;
     const auto [at, fresh] = names.emplace(found.name.text, static_cast<uint32_t>(checker.symbols.size()));
@@ -40,6 +42,7 @@ void collect_own_names(Checker& checker, uint32_t module) {
     symbol.module = module;
     symbol.declaration = &declaration;
     symbol.name = found.name;
+    symbol.is_private = i < tree.private_words.size() && !tree.private_words[i].empty();
     checker.symbols.push_back(std::move(symbol));
   }
 }
@@ -64,7 +67,7 @@ void collect_scope(Checker& checker, uint32_t module) {
   for (const uint32_t other : visible_modules(checker, module)) {
     checker.module_names[module].emplace(checker.modules[other].name, other);
     for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol) {
-      if (checker.symbols[symbol].module != other) continue;
+      if (checker.symbols[symbol].module != other || checker.symbols[symbol].is_private) continue;
       const auto [at, fresh] = scope.emplace(checker.symbols[symbol].name.text, Visible{symbol, UINT32_MAX});
       if (!fresh && at->second.other == UINT32_MAX) at->second.other = symbol;
     }
@@ -85,8 +88,16 @@ std::vector<std::string_view> names_of_kind(const Checker& checker, uint32_t mod
   return names;
 }
 
+void report_private(Checker& checker, const Symbol& hidden, Span span) {
+  const std::string name(hidden.name.text);
+  checker.report(DiagnosticKind::PrivateName, span, {name, checker.modules[hidden.module].name})
+      .note(DiagnosticKind::DeclaredHere, hidden.name.span, {name});
+}
+
 void report_unknown(Checker& checker, uint32_t module, std::string_view name, Span span, SymbolKind kind) {
   if (checker.lost_names) return;  // perhaps declared in what did not parse
+  if (!checker.unknown.emplace(std::to_string(module) + " " + std::string(name)).second) return;
+  if (report_if_private(checker, module, name, span)) return;
   Diagnostic diagnostic(DiagnosticKind::UnknownName, span, {describe(kind), std::string(name)});
   const std::string guess = closest(name, names_of_kind(checker, module, kind));
   if (!guess.empty()) diagnostic.fix(span, guess);
@@ -141,11 +152,25 @@ std::optional<uint32_t> find_qualified(Checker& checker, uint32_t module, const 
     report_unknown(checker, at->second, expr.text, expr.span, kind);
     return std::nullopt;
   }
+  if (checker.symbols[found->second].is_private && at->second != module) {
+    report_private(checker, checker.symbols[found->second], expr.span);
+    return std::nullopt;
+  }
   if (!fits_kind(checker, found->second, expr.span, kind)) return std::nullopt;
   return found->second;
 }
 
 }  // namespace
+
+bool report_if_private(Checker& checker, uint32_t module, std::string_view name, Span span) {
+  for (const uint32_t other : visible_modules(checker, module)) {
+    const auto at = checker.own_names[other].find(name);
+    if (at == checker.own_names[other].end() || !checker.symbols[at->second].is_private) continue;
+    report_private(checker, checker.symbols[at->second], span);
+    return true;
+  }
+  return false;
+}
 
 const char* describe(SymbolKind kind) {
   constexpr const char* kNames[] = {"constant", "extent",    "struct", "interface", "sampler",  "state",
@@ -225,6 +250,7 @@ std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, con
   if (owner == checker.module_names[module].end()) return std::nullopt;
   const auto found = checker.own_names[owner->second].find(expr.text);
   if (found == checker.own_names[owner->second].end()) return std::nullopt;
+  if (checker.symbols[found->second].is_private && owner->second != module) return std::nullopt;
   return found->second;
 }
 

@@ -53,6 +53,11 @@ bool of_buffers(Role role) {
   }
 }
 
+bool of_texels(Role role) {
+  return role == Role::sampled ||
+         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::index && role != Role::indirect);
+}
+
 bool of_pass(Role role, PassKind kind) {
   switch (role) {
     case Role::sampled:
@@ -84,8 +89,16 @@ bool is_attachment(Role role) { return role == Role::color || role == Role::dept
 bool check_role(const Rules& rules, const Access& access) {
   const Resource& resource = rules.resource(access);
   const bool image = resource.kind == ResourceKind::image;
-  if (!(image ? of_images(access.role) : of_buffers(access.role))) {
-    rules.checker.report(DiagnosticKind::RoleOfKind, access.span, {resource.name, image ? "an image" : "a buffer", word_of(access.role)})
+  const bool texels = !image && resource.format != Format::none;
+  const bool fits = image ? of_images(access.role) : texels ? of_texels(access.role) : of_buffers(access.role);
+  if (!fits) {
+    rules.checker
+        .report(DiagnosticKind::RoleOfKind, access.span,
+                {resource.name,
+                 image    ? "an image"
+                 : texels ? "a buffer of texels"
+                          : "a buffer",
+                 word_of(access.role)})
         .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
     return false;
   }
@@ -96,7 +109,7 @@ bool check_role(const Rules& rules, const Access& access) {
 
 void report_format(const Rules& rules, DiagnosticKind kind, const Access& access, std::vector<std::string> more = {}) {
   const Resource& image = rules.resource(access);
-  std::vector<std::string> arguments = {image.name, name(image.format)};
+  std::vector<std::string> arguments = {image.name, name(seen_format(image, access))};
   arguments.insert(arguments.end(), more.begin(), more.end());
   rules.checker.report(kind, access.span, std::move(arguments)).note(DiagnosticKind::DeclaredHere, image.span, {image.name});
 }
@@ -112,8 +125,8 @@ void check_attachment_format(const Rules& rules, const Access& access, const For
 
 void check_storage_format(const Rules& rules, const Access& access, const FormatInfo& format) {
   if (format.is_block()) return report_format(rules, DiagnosticKind::BlockFormatUse, access, {"be used as storage"});
-  const bool shared_exponent = rules.resource(access).format == Format::rgb9e5;
-  const bool fits = format.is_color() && format.numeric != Numeric::srgb && !shared_exponent && rules.resource(access).format != Format::bgra8;
+  const Format seen = seen_format(rules.resource(access), access);
+  const bool fits = format.is_color() && format.numeric != Numeric::srgb && seen != Format::rgb9e5 && seen != Format::bgra8;
   if (!fits) report_format(rules, DiagnosticKind::StorageFormat, access);
 }
 
@@ -143,7 +156,9 @@ void check_mips(const Rules& rules, const Access& access) {
 }
 
 void check_image_use(const Rules& rules, const Access& access) {
-  const FormatInfo& format = info(rules.resource(access).format);
+  const FormatInfo& format = info(seen_format(rules.resource(access), access));
+  const bool in_shader = access.role == Role::sampled || access.role == Role::storage;
+  if (access.view != Format::none && !in_shader) rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"view", word_of(access.role)});
   if (is_attachment(access.role)) check_attachment_format(rules, access, format);
   if (access.role == Role::storage) check_storage_format(rules, access, format);
   if (access.role == Role::sampled) check_sampler(rules, access, format);
@@ -269,6 +284,10 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
     const bool fits = check_role(rules, access);
     roles_fit = roles_fit && fits;
     if (fits && rules.resource(access).kind == ResourceKind::image) check_image_use(rules, access);
+    const bool sampled_texels = rules.resource(access).kind == ResourceKind::buffer && access.sampler.valid();
+    if (sampled_texels) checker.report(DiagnosticKind::SamplerOfRole, access.span, {word_of(access.role)});
+    if (fits && access.role == Role::storage && rules.resource(access).format != Format::none && rules.resource(access).kind == ResourceKind::buffer)
+      check_storage_format(rules, access, info(rules.resource(access).format));
   }
   if (!roles_fit) return;
   check_attachments(rules);

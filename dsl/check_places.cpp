@@ -45,16 +45,30 @@ std::optional<ResourceId> lookup(const GraphScope& scope, const std::string& nam
   return at->second;
 }
 
+// `scene.lights`, if exactly one interface has a member `lights`.
+std::string member_called(const GraphScope& scope, const std::string& name) {
+  std::string found;
+  for (const auto& [parameter, symbol] : scope.interfaces) {
+    const std::string full = parameter + "." + name;
+    if (!scope.resources.count(full)) continue;
+    if (!found.empty()) return {};
+    found = full;
+  }
+  return found;
+}
+
 void report_unknown(Walk walk, const Expr& expr, const std::string& name) {
   walk.scope.incomplete = true;
-  if (walk.checker.lost_names || walk.scope.failed.count(walk.scope.prefix + name)) return;
+  if (walk.checker.lost_names || !walk.scope.failed.emplace(walk.scope.prefix + name, true).second)
+    return;  // one mistake, however often it is repeated
   std::vector<std::string_view> candidates;
   for (const Resource& resource : walk.scope.graph.resources) candidates.push_back(resource.name);
   for (const Binding& binding : walk.scope.bindings)
     if (binding.kind == Binding::Kind::place) candidates.push_back(binding.name);
   const Span span = expr.span;
   Diagnostic diagnostic(DiagnosticKind::UnknownName, span, {"resource", name});
-  const std::string guess = closest(name, candidates);
+  std::string guess = member_called(walk.scope, name);
+  if (guess.empty()) guess = closest(name, candidates);
   if (!guess.empty()) diagnostic.fix(span, guess);
   walk.checker.diagnostics.report(std::move(diagnostic));
 }
@@ -65,6 +79,7 @@ Place find_root(Walk walk, const Expr& expr) {
     place.span = expr.span;
     place.default_name = std::string(binding->name);
     if (!binding->writable) place.read_only = binding;
+    if (binding->is_out) place.port = const_cast<Binding*>(binding);
     return place;
   }
   const std::string name = walk.scope.prefix + std::string(expr.text);
@@ -139,7 +154,7 @@ Place member_place(Walk walk, const Expr& expr) {
   const Span span{expr.span.file, expr.span.end - length, expr.span.end};
   walk.scope.incomplete = true;
   Diagnostic diagnostic(DiagnosticKind::UnknownPart, span, {std::string(expr.text)});
-  const std::string guess = closest(expr.text, {"mip", "mips", "layer", "layers", "depth", "stencil", "bytes", "prev"});
+  const std::string guess = closest(expr.text, {"mip", "mips", "layer", "layers", "depth", "stencil", "bytes", "prev", "view"});
   if (!guess.empty()) diagnostic.fix(span, guess);
   walk.checker.diagnostics.report(std::move(diagnostic));
   return {};
@@ -214,12 +229,43 @@ Place take_bytes(Walk walk, const Expr& call, Place place) {
   return place;
 }
 
+// Why texels of `from` cannot be read as texels of `to`, or nothing.
+const char* view_fault(const FormatInfo& from, const FormatInfo& to) {
+  if (!from.is_color() || !to.is_color()) return "depth and stencil have one format each";
+  if (from.is_block() || to.is_block())
+    return from.block_width == to.block_width && from.block_bytes == to.block_bytes ? nullptr : "the blocks differ";
+  return from.block_bytes == to.block_bytes ? nullptr : "the texels are not of one size";
+}
+
+Place take_view(Walk walk, const Expr& call, Place place) {
+  const Resource& resource = walk.scope.graph.resources[place.resource];
+  const std::string wanted = spelled(call.operands[1]);
+  const Format format = find_format(wanted);
+  if (format == Format::none) {
+    walk.scope.incomplete = true;
+    Diagnostic diagnostic(DiagnosticKind::UnknownFormat, call.operands[1].span, {wanted});
+    const std::string guess = closest(wanted, format_names());
+    if (!guess.empty()) diagnostic.fix(call.operands[1].span, guess);
+    walk.checker.diagnostics.report(std::move(diagnostic));
+    return {};
+  }
+  if (const char* fault = view_fault(info(resource.format), info(format))) {
+    walk.scope.incomplete = true;
+    walk.checker.report(DiagnosticKind::ViewSize, call.span, {resource.name, name(resource.format), wanted, fault})
+        .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
+    return {};
+  }
+  place.view = format == resource.format ? Format::none : format;
+  return place;
+}
+
 struct Part {
   std::string_view name;
   size_t arguments;
   bool of_images;
 };
-constexpr Part kParts[] = {{"mip", 1, true}, {"mips", 2, true}, {"layer", 1, true}, {"layers", 2, true}, {"prev", 1, false}, {"bytes", 2, false}};
+constexpr Part kParts[] = {{"mip", 1, true},   {"mips", 2, true},   {"layer", 1, true}, {"layers", 2, true},
+                           {"prev", 1, false}, {"bytes", 2, false}, {"view", 1, true}};
 
 Place called_place(Walk walk, const Expr& call) {
   const Expr& callee = call.operands[0];
@@ -239,6 +285,7 @@ Place called_place(Walk walk, const Expr& call) {
   if (part->name == "mip" || part->name == "mips") return take_mips(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "layer" || part->name == "layers") return take_layers(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "prev") return take_previous(walk, call, std::move(place));
+  if (part->name == "view") return take_view(walk, call, std::move(place));
   return take_bytes(walk, call, std::move(place));
 }
 

@@ -91,13 +91,14 @@ void read_image_setting(Builder& at, const ast::Setting& setting) {
   if (word == "samples" && (resource.samples & (resource.samples - 1)) != 0)
     fail(at, DiagnosticKind::SamplesNotPowerOfTwo, setting.span, {std::to_string(resource.samples)});
   if (word == "cube") resource.dimension = Dimension::cube;
+  if (word == "layout") resource.layout_general = true;
   if (word == "1d") resource.dimension = Dimension::d1;
   if (word == "3d") resource.dimension = Dimension::d3;
 }
 
 void read_setting(Builder& at, const ast::Setting& setting) {
   const std::string_view word = setting.word.text;
-  constexpr std::string_view kOfImages[] = {"mips", "layers", "samples", "cube", "1d", "2d", "3d"};
+  constexpr std::string_view kOfImages[] = {"mips", "layers", "samples", "cube", "1d", "2d", "3d", "layout"};
   const bool of_images = std::find(std::begin(kOfImages), std::end(kOfImages), word) != std::end(kOfImages);
   if (of_images && at.node.is_buffer) return fail(at, DiagnosticKind::SettingOfImages, setting.span, {std::string(word)});
   if (of_images) return read_image_setting(at, setting);
@@ -216,7 +217,31 @@ void read_count(Builder& at) {
   at.resource.count = to_expr(at.checker, count.at[0]);
 }
 
+// What a texel buffer, `rgba8[256]`, cannot be.
+const char* texel_fault(const Builder& at, const FormatInfo& format) {
+  if (!format.is_color()) return "depth and stencil need an image";
+  if (format.is_block()) return "blocks need an image";
+  if (format.numeric == Numeric::srgb) return "buffers have no sRGB conversion";
+  if (at.resource.lifetime == Lifetime::imported) return "what the engine brings holds plain elements; see it through a copy";
+  return at.resource.lifetime == Lifetime::readback ? "the host reads plain elements; copy it to a buffer that is read back" : nullptr;
+}
+
+// True if the element is a format: shaders convert texels as they do those of images.
+bool read_texels(Builder& at) {
+  const Format format = find_format(at.node.element.name.text);
+  if (at.node.element.name.kind != ast::ExprKind::name || format == Format::none) return false;
+  const FormatInfo& row = info(format);
+  if (const char* fault = texel_fault(at, row)) fail(at, DiagnosticKind::TexelFormat, at.node.element.span, {at.resource.name, row.name, fault});
+  at.resource.kind = ResourceKind::buffer;
+  at.resource.format = format;
+  at.resource.element.scalar = row.numeric == Numeric::uint ? Scalar::u32 : row.numeric == Numeric::sint ? Scalar::i32 : Scalar::f32;
+  at.resource.stride = row.block_bytes;
+  read_count(at);
+  return true;
+}
+
 void read_buffer(Builder& at) {
+  if (read_texels(at)) return;
   const auto element = element_type(at.checker, at.scope.module, at.node.element);
   if (!element) return void(at.ok = false);
   at.resource.kind = ResourceKind::buffer;
@@ -342,53 +367,6 @@ void declare_params(Checker& checker, GraphScope& scope, const ast::Parameter& p
   scope.params.emplace(name, scope.graph.params.add({name, type, {}, parameter.name.span}));
 }
 
-int32_t to_signed(double value) { return static_cast<int32_t>(std::clamp(value, -2147483648.0, 2147483647.0)); }
-uint32_t to_unsigned(double value) { return static_cast<uint32_t>(std::clamp(value, 0.0, 4294967295.0)); }
-
-void set_image_clear(ClearValue& out, const FormatInfo& format, uint32_t aspects, const std::vector<double>& numbers) {
-  out.integer = format.is_integer() && format.is_color();
-  const bool is_color = format.is_color();
-  for (size_t i = 0; i < 4; ++i) {
-    const double number = numbers.size() == 1 ? numbers[0] : i < numbers.size() ? numbers[i] : 0.0;
-    if (is_color && out.integer)
-      out.u[i] = format.numeric == Numeric::sint ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
-    else if (is_color)
-      out.f[i] = static_cast<float>(number);
-  }
-  if (is_color) return;
-  const bool depth = ((aspects ? aspects : format.aspects) & aspect_depth) != 0;
-  if (depth)
-    out.f[0] = static_cast<float>(numbers[0]);
-  else
-    out.u[1] = to_unsigned(numbers[0]);
-  if (depth && numbers.size() > 1) out.u[1] = to_unsigned(numbers[1]);
-}
-
-void set_buffer_clear(ClearValue& out, Scalar scalar, double number) {
-  const auto f = static_cast<float>(number);
-  out.integer = scalar != Scalar::f32;
-  out.f[0] = f;
-  if (scalar == Scalar::f32)
-    std::memcpy(&out.u[0], &f, sizeof f);
-  else
-    out.u[0] = scalar == Scalar::i32 ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
-}
-
-std::vector<double> numbers_of(Checker& checker, const Value& value, Span span) {
-  if (!value.ok()) return {};
-  if (value.is_number()) return {value.real};
-  if (!value.numbers.empty()) return value.numbers;
-  checker.report(DiagnosticKind::NotANumber, span);
-  return {};
-}
-
-bool fits_format(const FormatInfo& format, const std::vector<double>& numbers) {
-  const auto whole = [](double number) { return number == std::floor(number); };
-  if (format.numeric == Numeric::uint) return std::all_of(numbers.begin(), numbers.end(), [&](double n) { return whole(n) && n >= 0; });
-  if (format.numeric == Numeric::sint) return std::all_of(numbers.begin(), numbers.end(), whole);
-  return true;
-}
-
 }  // namespace
 
 std::optional<Role> find_role(std::string_view word) {
@@ -414,27 +392,6 @@ uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words) {
     checker.diagnostics.report(std::move(diagnostic));
   }
   return stages;
-}
-
-ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects) {
-  ClearValue out;
-  const std::vector<double> numbers = numbers_of(checker, evaluate_expr(checker, &scope, scope.module, expr), expr.span);
-  if (numbers.empty()) return out;
-  if (resource.kind == ResourceKind::buffer) {
-    const bool simple = !resource.element.record.valid() || numbers[0] == 0;
-    if (numbers.size() > 1 || !simple) checker.report(DiagnosticKind::ClearOfStruct, expr.span, {resource.name});
-    set_buffer_clear(out, resource.element.record.valid() ? Scalar::u32 : resource.element.scalar, numbers[0]);
-    return out;
-  }
-  const FormatInfo& format = info(resource.format);
-  const size_t most = format.is_color() ? 4 : 2;
-  if (numbers.size() > most)
-    checker.report(DiagnosticKind::ClearComponents, expr.span, {resource.name, std::to_string(most), std::to_string(numbers.size())});
-  if (!fits_format(format, numbers)) checker.report(DiagnosticKind::ClearOfFormat, expr.span, {resource.name, format.name});
-  const bool depth = (format.aspects & aspect_depth) != 0 && aspects != aspect_stencil;
-  if (depth && (numbers[0] < 0 || numbers[0] > 1)) checker.report(DiagnosticKind::DepthClearRange, expr.span, {resource.name});
-  set_image_clear(out, format, aspects, numbers);
-  return out;
 }
 
 std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const ast::Boxed<ast::Expr>& index) {

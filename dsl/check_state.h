@@ -2,12 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
 
 #include "dsl/check.h"
+#include "dsl/closest.h"
 #include "dsl/format_table.h"
 
 namespace rg::dsl {
@@ -43,6 +45,7 @@ struct Symbol {
   enum class Progress : uint8_t { open, running, done } progress = Progress::open;
   uint32_t id = UINT32_MAX;  // row of the program's table; none after an error
   Value value;               // constants
+  bool is_private = false;   // other modules do not see it
 };
 struct Visible {                                     // what a name means inside one module
   uint32_t symbol = UINT32_MAX, other = UINT32_MAX;  // other: a second module declares it too
@@ -74,6 +77,7 @@ struct Checker {
   std::vector<bool> used;                                                    // by symbol
   std::unordered_map<NodeKey, ExprId, NodeHash> nodes;                       // equal expressions are one row
   std::unordered_map<std::string, Span> public_names;                        // structs and constants: shaders and C++ see them unqualified
+  std::set<std::string> unknown;                                             // "MODULE NAME" that were reported as unknown: once is enough
   bool lost_names = false;                                                   // a name that is not found may be in what did not parse
 
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
@@ -91,6 +95,8 @@ struct Place {  // `bloom.mip(i).layer(0)` resolved
   std::string default_name;
   Span span;
   const Binding* read_only = nullptr;  // the technique's parameter it came through, if that may only be read
+  Binding* port = nullptr;             // the technique's `out` parameter it came through
+  Format view = Format::none;          // `.view(FORMAT)`
   bool ok() const { return resource.valid(); }
 };
 
@@ -102,6 +108,7 @@ struct Binding {  // of a loop variable or a technique's parameter
   bool writable = true;
   ParamsId params;
   Span span;
+  bool is_out = false, written = false;  // an `out` parameter, and whether the technique has written it so far
 };
 
 // The graph that is being built, and where in it we are.
@@ -132,7 +139,8 @@ std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast
 std::optional<uint32_t> find_symbol(Checker& checker, uint32_t module, const ast::Name& name, SymbolKind kind);
 // Silent: for expressions, where a name may be several things.
 std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, const ast::Expr& expr);
-std::string closest(std::string_view word, const std::vector<std::string_view>& candidates);
+// Whether a module that `module` sees keeps the name to itself; reports it.
+bool report_if_private(Checker& checker, uint32_t module, std::string_view name, Span span);
 std::string spelled(const ast::Expr& expr);
 std::string with_article(std::string_view noun);  // "an image"
 // Reports a repeated name with a note at the first.
@@ -149,6 +157,9 @@ bool claim_public_name(Checker& checker, const ast::Name& name);
 Scalar64 combine(Checker& checker, ExprOp op, Scalar64 a, Scalar64 b, Span span);
 Value integer_value(int64_t value);
 const Value& constant_value(Checker& checker, uint32_t symbol);
+// False if the declaration has been read, or is being read already: then it needs itself, which is reported.
+bool begin_declaration(Checker& checker, uint32_t symbol);
+// ---- check_extents.cpp ------------------------------------------------------------------------------------------
 ExtentId extent_of(Checker& checker, uint32_t symbol);
 
 // ---- check_types.cpp --------------------------------------------------------------------------------------------
@@ -162,6 +173,12 @@ std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::T
 SamplerId sampler_of(Checker& checker, uint32_t symbol);
 StateId state_of(Checker& checker, uint32_t symbol);
 FeatureId feature_of(Checker& checker, uint32_t symbol);
+// Rules are read once every feature is known.
+void check_features(Checker& checker);
+std::optional<Guard::Term> feature_term(Checker& checker, uint32_t module, const ast::FeatureTerm& term);
+Guard::Term opposite(const Checker& checker, Guard::Term term);
+// Whether some feasible choice of features satisfies the guard.
+bool is_reachable(const Checker& checker, const Guard& guard);
 ConditionId condition_of(Checker& checker, uint32_t symbol);
 void check_engine_set(Checker& checker, uint32_t symbol);
 
@@ -206,6 +223,9 @@ void check_graph(Checker& checker, uint32_t symbol);
 
 // ---- rules over the finished graph ------------------------------------------------------------------------------
 void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass);
+// Histories that some frame may not write, to be carried forward; reports those that nothing writes.
+std::vector<ResourceId> find_carried(Checker& checker, const Graph& graph);
+void carry_forward(Graph& graph, const std::vector<ResourceId>& histories);
 void check_definitions(Checker& checker, const Graph& graph);
 void check_unused(Checker& checker, const GraphScope& scope);
 void check_block_layouts(Checker& checker, const Graph& graph);

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dsl/check_state.h"
+#include "dsl/features.h"
 
 namespace rg::dsl {
 namespace {
@@ -112,7 +113,120 @@ void read_feature(Checker& checker, const ast::FeatureDeclaration& node, Feature
   }
 }
 
+bool is_bool(const Feature& feature) { return feature.values.size() == 2 && feature.values[0] == "off" && feature.values[1] == "on"; }
+
+std::optional<uint32_t> value_index(Checker& checker, const ast::FeatureTerm& term, const Feature& feature) {
+  if (term.value.empty() && is_bool(feature)) return 1;
+  if (term.value.empty()) {
+    checker.report(DiagnosticKind::FeatureNeedsValue, term.feature.span, {feature.name})
+        .note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
+    return std::nullopt;
+  }
+  const auto found = std::find(feature.values.begin(), feature.values.end(), term.value.text);
+  if (found != feature.values.end()) return static_cast<uint32_t>(found - feature.values.begin());
+  const std::vector<std::string_view> candidates(feature.values.begin(), feature.values.end());
+  Diagnostic diagnostic(DiagnosticKind::UnknownName, term.value.span, {"value of feature `" + feature.name + "`", std::string(term.value.text)});
+  const std::string guess = closest(term.value.text, candidates);
+  if (!guess.empty()) diagnostic.fix(term.value.span, guess);
+  diagnostic.note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
+  checker.diagnostics.report(std::move(diagnostic));
+  return std::nullopt;
+}
+
+uint32_t value_with_rule(const ast::FeatureDeclaration& node, const ast::FeatureRule& rule) {
+  if (node.is_bool) return 1;
+  const auto same = [&](const ast::Name& value) { return value.text == rule.value.text; };
+  return static_cast<uint32_t>(std::find_if(node.values.begin(), node.values.end(), same) - node.values.begin());
+}
+
+void read_rules(Checker& checker, uint32_t symbol) {
+  const auto& node = std::get<ast::FeatureDeclaration>(*checker.symbols[symbol].declaration);
+  const FeatureId id = feature_of(checker, symbol);
+  for (const ast::FeatureRule& rule : node.rules) {
+    const auto term = feature_term(checker, checker.symbols[symbol].module, rule.term);
+    if (!term) continue;
+    const Feature::Rule row{value_with_rule(node, rule), rule.excludes ? opposite(checker, *term) : *term, rule.term.span};
+    checker.program.features[id].rules.push_back(row);
+  }
+}
+
+// The rule that leaves `value` no room, as far as one alone does.
+Span culprit(const Feature& feature, uint32_t value) {
+  for (const Feature::Rule& rule : feature.rules)
+    if (rule.value == value) return rule.span;
+  return feature.span;
+}
+
+// A value that no choice of the other features allows is a mistake in the rules.
+void check_values_possible(Checker& checker, FeatureId id) {
+  constexpr uint64_t kBudget = 4096;
+  const Feature& feature = checker.program.features[id];
+  for (uint32_t value = 0; value < feature.values.size(); ++value) {
+    FeatureValues decided(checker.program.features.size(), kFreeFeature);
+    decided[id.value] = value;
+    const std::vector<bool> none(decided.size(), false);
+    bool possible = false;
+    const bool finished = each_configuration(checker.program.features, decided, none, kBudget, [&](const FeatureValues&) { return possible = true; });
+    if (possible || !finished) continue;
+    checker.report(DiagnosticKind::ValueImpossible, culprit(feature, value), {feature.name, feature.values[value]})
+        .note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
+    return;
+  }
+}
+
+// A row each, in order: a condition is a bit of a word that the host fills once a frame.
+void add_conditions(Checker& checker, uint32_t symbol) {
+  constexpr uint32_t kMaxConditions = 64;
+  const auto& node = std::get<ast::ConditionDeclaration>(*checker.symbols[symbol].declaration);
+  const std::string name(node.name.text);
+  auto& rows = checker.program.conditions;
+  int64_t count = 1;
+  if (node.count) count = evaluate_integer(checker, nullptr, checker.symbols[symbol].module, *node.count, 1, kMaxConditions).value_or(0);
+  if (count == 0) return;
+  if (rows.size() + static_cast<size_t>(count) > kMaxConditions) {
+    checker.report(DiagnosticKind::TooManyConditions, node.name.span, {name, std::to_string(kMaxConditions + 1), std::to_string(kMaxConditions)});
+    return;
+  }
+  checker.symbols[symbol].id = static_cast<uint32_t>(rows.size());
+  if (!node.count) return void(rows.add({name, node.name.span}));
+  for (uint32_t i = 0; i < count; ++i) rows.add({name + "[" + std::to_string(i) + "]", node.name.span, name, i, static_cast<uint32_t>(count)});
+}
+
 }  // namespace
+
+std::optional<Guard::Term> feature_term(Checker& checker, uint32_t module, const ast::FeatureTerm& term) {
+  const auto symbol = find_symbol(checker, module, term.feature, SymbolKind::feature);
+  if (!symbol) return std::nullopt;
+  const FeatureId id = feature_of(checker, *symbol);
+  const auto value = value_index(checker, term, checker.program.features[id]);
+  if (!value) return std::nullopt;
+  const Guard::Term plain{id, *value, false};
+  return term.negated ? opposite(checker, plain) : plain;
+}
+
+Guard::Term opposite(const Checker& checker, Guard::Term term) {
+  if (checker.program.features[term.feature].values.size() == 2) return {term.feature, 1 - term.value, term.negated};  // the other value
+  term.negated = !term.negated;
+  return term;
+}
+
+bool is_reachable(const Checker& checker, const Guard& guard) {
+  constexpr uint64_t kBudget = 4096;
+  std::vector<bool> open(checker.program.features.size(), false);
+  for (const Guard::Term& term : guard.terms) open[term.feature.value] = true;
+  bool reached = false;
+  const FeatureValues free(open.size(), kFreeFeature);
+  const bool finished = each_configuration(checker.program.features, free, open, kBudget,
+                                           [&](const FeatureValues& values) { return !(reached = holds(guard, values)); });
+  return reached || !finished;
+}
+
+void check_features(Checker& checker) {
+  for (uint32_t symbol = 0; symbol < checker.symbols.size(); ++symbol)
+    if (checker.symbols[symbol].kind == SymbolKind::feature) read_rules(checker, symbol);
+  for (size_t id = 0; id < checker.program.features.size(); ++id)
+    if (!checker.program.features.rows[id].rules.empty()) check_values_possible(checker, FeatureId{id});
+}
 
 SamplerId sampler_of(Checker& checker, uint32_t symbol) {
   if (first_visit(checker.symbols[symbol])) {
@@ -155,11 +269,9 @@ FeatureId feature_of(Checker& checker, uint32_t symbol) {
 }
 
 ConditionId condition_of(Checker& checker, uint32_t symbol) {
-  if (first_visit(checker.symbols[symbol])) {
-    const ast::Name name = checker.symbols[symbol].name;
-    checker.symbols[symbol].id = checker.program.conditions.add({std::string(name.text), name.span}).value;
-  }
-  return ConditionId{size_t{checker.symbols[symbol].id}};
+  if (first_visit(checker.symbols[symbol])) add_conditions(checker, symbol);
+  const uint32_t id = checker.symbols[symbol].id;
+  return id == UINT32_MAX ? ConditionId{} : ConditionId{size_t{id}};
 }
 
 void check_engine_set(Checker& checker, uint32_t symbol) {

@@ -80,6 +80,7 @@ void finish(Checker& checker, GraphScope& scope, PassScope& out, const TransferW
             const Place& dst) {
   if (!check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
   transfer.dst = add_plain_access(scope, out, dst, Mode::write, word.dst);
+  if (dst.port) dst.port->written = true;
   const Access& access = out.pass.accesses[transfer.dst];
   if (node.value) transfer.value = clear_value(checker, scope, *node.value, scope.graph.resources[dst.resource], access.range.aspects);
   if (word.kind == TransferKind::update) transfer.data = access.name;

@@ -30,6 +30,7 @@ void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& nam
   for (const NamedType& type : kTypes) candidates.push_back(type.name);
   for (const Symbol& symbol : checker.symbols)
     if (symbol.kind == SymbolKind::structure && checker.scopes[module].count(symbol.name.text)) candidates.push_back(symbol.name.text);
+  if (report_if_private(checker, module, name.text, name.span)) return;
   Diagnostic diagnostic(DiagnosticKind::UnknownType, name.span, {std::string(name.text)});
   const std::string guess = closest(name.text, candidates);
   if (!guess.empty()) diagnostic.fix(name.span, guess);

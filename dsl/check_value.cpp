@@ -99,8 +99,17 @@ Value apply_axes(Evaluator& at, ExprOp op, const Value& a, const Value& b, Span 
   return result;
 }
 
+// a % b has the sign of b: indices wrap around both ends.
+Value remainder(Evaluator& at, const ast::Expr& expr, const Value& a, const Value& b) {
+  if (a.kind != Value::Kind::integer || b.kind != Value::Kind::integer) return wrong_operand(at, expr, "whole numbers");
+  const Value quotient = apply_axes(at, ExprOp::floor_div, a, b, expr.span);
+  if (!quotient.ok()) return quotient;
+  return apply_axes(at, ExprOp::sub, a, apply_axes(at, ExprOp::mul, quotient, b, expr.span), expr.span);
+}
+
 Value apply(Evaluator& at, const ast::Expr& expr, const Value& a, const Value& b) {
   if (!a.ok() || !b.ok()) return error_value();
+  if (expr.kind == ExprKind::mod) return remainder(at, expr, a, b);
   if (a.kind == Value::Kind::list || b.kind == Value::Kind::list) return wrong_operand(at, expr, "numbers and sizes");
   if (a.kind == Value::Kind::integer && b.kind == Value::Kind::integer) return apply_axes(at, op_of(expr.kind), a, b, expr.span);
   if (!a.is_number() || !b.is_number()) return wrong_operand(at, expr, "whole numbers, because extents are whole numbers");
@@ -226,13 +235,13 @@ Value least_or_greatest(Evaluator& at, const ast::Expr& call, ExprOp op) {
   return result;
 }
 
-Value mips_of(Evaluator& at, const ast::Expr& call) {
+Value count_of(Evaluator& at, const ast::Expr& call, uint32_t (*count)(const Resource&, const Range&)) {
   if (!at.scope) return wrong_operand(at, call, "a resource, which only graphs have");
   const Place place = find_place(at.checker, *at.scope, call.operands[1]);
   if (!place.ok()) return error_value();
   const Resource& resource = at.scope->graph.resources[place.resource];
   if (resource.kind == ResourceKind::buffer) return wrong_operand(at, call.operands[1], "an image");
-  return integer_value(mip_count(resource, place.range));
+  return integer_value(count(resource, place.range));
 }
 
 Value call(Evaluator& at, const ast::Expr& expr) {
@@ -244,15 +253,16 @@ Value call(Evaluator& at, const ast::Expr& expr) {
   if (name == "floor" && one) return rounded(at, expr, ExprOp::floor_div);
   if (name == "min" && many) return least_or_greatest(at, expr, ExprOp::min);
   if (name == "max" && many) return least_or_greatest(at, expr, ExprOp::max);
-  if (name == "mips" && one) return mips_of(at, expr);
-  const bool known = name == "ceil" || name == "floor" || name == "min" || name == "max" || name == "mips";
-  if (known) {
+  if (name == "mips" && one) return count_of(at, expr, mip_count);
+  if (name == "layers" && one) return count_of(at, expr, layer_count);
+  constexpr std::string_view kFunctions[] = {"ceil", "floor", "min", "max", "mips", "layers"};
+  if (std::find(std::begin(kFunctions), std::end(kFunctions), name) != std::end(kFunctions)) {
     at.checker.report(DiagnosticKind::WrongArgumentCount, expr.span, {std::string(name), std::to_string(expr.operands.size() - 1)});
     return error_value();
   }
   if (at.scope && is_failed(at.checker, *at.scope, expr)) return error_value();
   Diagnostic diagnostic(DiagnosticKind::UnknownFunction, callee.span, {spelled(callee)});
-  const std::string guess = closest(callee.text, {"ceil", "floor", "min", "max", "mips"});
+  const std::string guess = closest(callee.text, {std::begin(kFunctions), std::end(kFunctions)});
   if (!guess.empty()) diagnostic.fix(callee.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   return error_value();
@@ -284,7 +294,8 @@ Value from_symbol(Evaluator& at, uint32_t symbol, const ast::Expr& expr) {
 }
 
 void report_unknown_value(Evaluator& at, const ast::Expr& expr) {
-  if (at.checker.lost_names) return;
+  if (at.checker.lost_names || !at.checker.unknown.emplace(std::to_string(at.module) + " " + std::string(expr.text)).second) return;
+  if (report_if_private(at.checker, at.module, expr.text, expr.span)) return;
   std::vector<std::string_view> names;
   for (const Symbol& symbol : at.checker.symbols) {
     const bool usable = symbol.kind == SymbolKind::constant || symbol.kind == SymbolKind::extent;
@@ -343,54 +354,11 @@ Value evaluate(Evaluator& at, const ast::Expr& expr) {
     case ExprKind::sub:
     case ExprKind::mul:
     case ExprKind::div:
+    case ExprKind::mod:
       break;
   }
   const Value a = evaluate(at, expr.operands[0]);
   return apply(at, expr, a, evaluate(at, expr.operands[1]));
-}
-
-bool read_axes(Checker& checker, uint32_t module, const std::vector<ast::Expr>& axes, int64_t (&out)[3]) {
-  constexpr int64_t kMaxExtent = 65536;
-  for (size_t axis = 0; axis < axes.size(); ++axis) {
-    const auto value = evaluate_integer(checker, nullptr, module, axes[axis], 1, kMaxExtent);
-    if (!value) return false;
-    out[axis] = *value;
-  }
-  return true;
-}
-
-bool read_extent(Checker& checker, const Symbol& symbol, const ast::ExtentDeclaration& node, Extent& extent) {
-  extent.name = std::string(symbol.name.text);
-  extent.span = symbol.name.span;
-  extent.axes = static_cast<uint32_t>(node.initial.size());
-  if (node.initial.empty()) return false;
-  if (node.initial.size() > 3 || (!node.maximum.empty() && node.maximum.size() != node.initial.size())) {
-    checker.report(DiagnosticKind::ExtentAxes, node.span, {extent.name, std::to_string(node.initial.size()), std::to_string(node.maximum.size())});
-    return false;
-  }
-  if (!read_axes(checker, symbol.module, node.initial, extent.initial)) return false;
-  std::copy(std::begin(extent.initial), std::end(extent.initial), std::begin(extent.maximum));
-  if (!read_axes(checker, symbol.module, node.maximum, extent.maximum)) return false;
-  for (size_t axis = 0; axis < node.maximum.size(); ++axis) {
-    if (extent.initial[axis] <= extent.maximum[axis]) continue;
-    const std::string initial = std::to_string(extent.initial[axis]), maximum = std::to_string(extent.maximum[axis]);
-    checker.report(DiagnosticKind::ExtentOverMaximum, node.initial[axis].span, {extent.name, initial, maximum})
-        .note(DiagnosticKind::MaximumIsHere, node.maximum[axis].span);
-    return false;
-  }
-  return true;
-}
-
-// False if the declaration is being worked on already: it needs itself.
-bool begin(Checker& checker, uint32_t symbol) {
-  Symbol& found = checker.symbols[symbol];
-  if (found.progress == Symbol::Progress::running) {
-    checker.report(DiagnosticKind::NeedsItself, found.name.span, {std::string(found.name.text)});
-    found.progress = Symbol::Progress::done;
-  }
-  if (found.progress == Symbol::Progress::done) return false;
-  found.progress = Symbol::Progress::running;
-  return true;
 }
 
 }  // namespace
@@ -460,26 +428,26 @@ std::optional<double> evaluate_number(Checker& checker, GraphScope* scope, uint3
   return std::nullopt;
 }
 
+// False if the declaration is being worked on already: it needs itself.
+bool begin_declaration(Checker& checker, uint32_t symbol) {
+  Symbol& found = checker.symbols[symbol];
+  if (found.progress == Symbol::Progress::running) {
+    checker.report(DiagnosticKind::NeedsItself, found.name.span, {std::string(found.name.text)});
+    found.progress = Symbol::Progress::done;
+  }
+  if (found.progress == Symbol::Progress::done) return false;
+  found.progress = Symbol::Progress::running;
+  return true;
+}
+
 const Value& constant_value(Checker& checker, uint32_t symbol) {
-  if (begin(checker, symbol)) {
+  if (begin_declaration(checker, symbol)) {
     const auto& node = std::get<ast::Constant>(*checker.symbols[symbol].declaration);
     Value value = evaluate_expr(checker, nullptr, checker.symbols[symbol].module, node.value);
     checker.symbols[symbol].value = std::move(value);
     checker.symbols[symbol].progress = Symbol::Progress::done;
   }
   return checker.symbols[symbol].value;
-}
-
-ExtentId extent_of(Checker& checker, uint32_t symbol) {
-  if (begin(checker, symbol)) {
-    const auto& node = std::get<ast::ExtentDeclaration>(*checker.symbols[symbol].declaration);
-    Extent extent;
-    if (read_extent(checker, checker.symbols[symbol], node, extent))
-      checker.symbols[symbol].id = checker.program.extents.add(std::move(extent)).value;
-    checker.symbols[symbol].progress = Symbol::Progress::done;
-  }
-  const uint32_t id = checker.symbols[symbol].id;
-  return id == UINT32_MAX ? ExtentId{} : ExtentId{size_t{id}};
 }
 
 }  // namespace rg::dsl

@@ -58,5 +58,7 @@ class Diagnostics {
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour);
 // The documented JSON form: an array of {code, name, severity, message, file, line, column, end_line, end_column, notes, fixes}.
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files);
+// SARIF 2.1.0 (OASIS), one run: rules are the codes that occur, notes with a place are related locations. Columns count bytes from 1.
+std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files);
 
 }  // namespace rg::dsl

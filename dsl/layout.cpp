@@ -51,6 +51,15 @@ TypeLayout layout_of(const Table<StructId, Struct>& structs, const Type& type, B
   return {result.stride * type.count, align, result.stride * type.count};
 }
 
+uint64_t scalar_size(const Table<StructId, Struct>& structs, const Type& type) {
+  uint64_t size = 4ull * type.rows * type.columns;
+  if (type.record.valid()) {
+    size = 0;
+    for (const Field& field : structs[type.record].fields) size += scalar_size(structs, field.type);
+  }
+  return size * std::max<uint64_t>(type.count, 1);
+}
+
 bool lay_out(const Table<StructId, Struct>& structs, Struct& record) {
   Cursor at140, at430;
   at140.align = 16;

@@ -13,6 +13,8 @@ struct TypeLayout {
 
 // `structs` holds the layout of every struct that `type` names.
 TypeLayout layout_of(const Table<StructId, Struct>& structs, const Type& type, BlockLayout layout);
+// Bytes of `type` in a block of scalar layout (GL_EXT_scalar_block_layout): everything is aligned to its scalars, so nothing is padded.
+uint64_t scalar_size(const Table<StructId, Struct>& structs, const Type& type);
 // Fills offsets, sizes and alignments of `record`. False if a size exceeds 2^31 bytes.
 bool lay_out(const Table<StructId, Struct>& structs, Struct& record);
 // Whether a C++ struct laid out for one kind of block also fits the other.

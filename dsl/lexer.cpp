@@ -139,12 +139,20 @@ TokenKind take_invalid(Lexer& lexer, uint32_t begin) {
   return TokenKind::invalid;
 }
 
+// Names reach C++, GLSL and debuggers, which have limits of their own.
+TokenKind finish_name(Lexer& lexer, uint32_t begin) {
+  constexpr uint32_t kLongest = 256;
+  if (lexer.at - begin <= kLongest) return TokenKind::identifier;
+  lexer.diagnostics.report(DiagnosticKind::NameTooLong, lexer.span(begin), {std::to_string(lexer.at - begin), std::to_string(kLongest)});
+  return TokenKind::invalid;
+}
+
 TokenKind take_token(Lexer& lexer) {
   const uint32_t begin = lexer.at;
   const char c = lexer.peek();
   if (is_letter(c)) {
     while (is_word(lexer.peek())) ++lexer.at;
-    return TokenKind::identifier;
+    return finish_name(lexer, begin);
   }
   if (is_digit(c)) return finish_number(lexer, begin);
   if (c == '"') return take_string(lexer, begin);

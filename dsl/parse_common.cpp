@@ -8,8 +8,8 @@ namespace {
 
 using Words = std::initializer_list<std::string_view>;
 
-constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "const",     "extent", "struct", "interface",
-                                              "sampler", "state",  "feature", "condition", "set",    "graph",  "technique"};
+constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "private",   "const", "extent", "struct",   "interface",
+                                              "sampler", "state",  "feature", "condition", "set",   "graph",  "technique"};
 constexpr std::string_view kItems[] = {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"};
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
@@ -55,7 +55,8 @@ std::string closest(std::string_view word, const std::vector<std::string_view>& 
   for (const std::string_view candidate : candidates) {
     if (candidate.size() > word.size() + best || candidate.size() + best < word.size() || candidate == word) continue;
     const uint32_t distance = edit_distance(word, candidate);
-    if (distance < best) best = distance, found_word = candidate;
+    const bool as_near = distance == best && !found_word.empty() && candidate.size() > found_word.size();  // left out is likelier than too much
+    if (distance < best || as_near) best = distance, found_word = candidate;
   }
   return std::string(found_word);
 }

@@ -1,4 +1,4 @@
-// expression := term { (+ | -) term }      term := factor { (* | /) factor }      factor := - factor | place | number | (list) | [list]
+// expression := term { (+ | -) term }      term := factor { (* | / | %) factor }      factor := - factor | place | number | (list) | [list]
 #include <charconv>
 
 #include "dsl/parser_state.h"
@@ -179,9 +179,10 @@ bool too_long(Parser& parser, uint32_t& length) {
 
 Expr parse_term(Parser& parser, const char* what) {
   Expr left = parse_factor(parser, what);
-  for (uint32_t length = 0; !parser.silent && (parser.is(TokenKind::star) || parser.is(TokenKind::slash));) {
+  const auto joins = [&] { return parser.is(TokenKind::star) || parser.is(TokenKind::slash) || parser.is(TokenKind::percent); };
+  for (uint32_t length = 0; !parser.silent && joins();) {
     if (too_long(parser, length)) break;
-    const ExprKind kind = parser.is(TokenKind::star) ? ExprKind::mul : ExprKind::div;
+    const ExprKind kind = parser.is(TokenKind::star) ? ExprKind::mul : parser.is(TokenKind::slash) ? ExprKind::div : ExprKind::mod;
     parser.take();
     left = binary(parser, kind, std::move(left), parse_factor(parser, "an operand"));
   }

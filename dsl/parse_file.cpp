@@ -31,7 +31,13 @@ void parse_target(Parser& parser, File& file) {
   Target target;
   const uint32_t begin = parser.peek().begin;
   parser.take();
-  target.api = parser.expect_one_of("`vulkan`", {"vulkan"});
+  if (parser.accept_word("profile")) {
+    const Span span = parser.here();
+    const std::string_view path = take_path(parser, "the path of a Vulkan Profiles file");
+    if (!parser.silent) file.profiles.push_back({path, span});
+    return;
+  }
+  target.api = parser.expect_one_of("`vulkan` or `profile`", {"vulkan", "profile"});
   if (!parser.silent) target.version = parse_expression(parser, "a version").real;
   target.span = parser.since(begin);
   if (!parser.silent) file.target = target;
@@ -53,7 +59,11 @@ ExtentDeclaration parse_extent(Parser& parser) {
   parser.expect(TokenKind::equal);
   const uint32_t begin = parser.peek().begin;
   if (!parser.silent && !parser.expect_one_of("`runtime`", {"runtime"}).empty()) extent.initial = parse_arguments(parser);
-  if (!parser.silent && parser.accept_word("max")) extent.maximum = parse_arguments(parser);
+  for (bool more = true; more && !parser.silent;) {
+    more = false;
+    if (extent.minimum.empty() && parser.is_word("min")) parser.take(), extent.minimum = parse_arguments(parser), more = true;
+    if (extent.maximum.empty() && parser.is_word("max")) parser.take(), extent.maximum = parse_arguments(parser), more = true;
+  }
   extent.span = parser.since(begin);
   return extent;
 }
@@ -94,25 +104,56 @@ StateDeclaration parse_state(Parser& parser) {
   return state;
 }
 
+FeatureTerm parse_feature_term(Parser& parser) {
+  FeatureTerm term;
+  const uint32_t begin = parser.peek().begin;
+  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
+  term.feature = parser.expect_name("a feature");
+  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
+    term.negated ^= parser.is(TokenKind::not_equal);
+    parser.take();
+    term.value = parser.expect_name("a value of the feature");
+  }
+  term.span = parser.since(begin);
+  return term;
+}
+
+// `requires a and b == low`, `excludes c or d`, any number of them
+void parse_feature_rules(Parser& parser, const Name& value, FeatureDeclaration& feature) {
+  while (!parser.silent && (parser.is_word("requires") || parser.is_word("excludes"))) {
+    const bool excludes = parser.is_word("excludes");
+    parser.take();
+    do {
+      feature.rules.push_back({value, parse_feature_term(parser), excludes});
+    } while (!parser.silent && parser.accept_word(excludes ? "or" : "and"));
+  }
+}
+
 FeatureDeclaration parse_feature(Parser& parser) {
   FeatureDeclaration feature;
   parser.take();
   feature.name = parser.expect_name("the name of the feature");
   parser.expect(TokenKind::colon);
-  if (parser.silent || parser.accept_word("bool")) return feature;
+  if (!parser.silent && parser.accept_word("bool")) return parse_feature_rules(parser, {}, feature), feature;
   feature.is_bool = false;
   const Span open = parser.here();
-  if (!parser.expect(TokenKind::left_brace)) return feature;
+  if (parser.silent || !parser.expect(TokenKind::left_brace)) return feature;
   do {
     feature.values.push_back(parser.expect_name("a value"));
+    parse_feature_rules(parser, feature.values.back(), feature);
   } while (!parser.silent && parser.accept(TokenKind::comma));
   if (!parser.silent) close_block(parser, open);
   return feature;
 }
 
 ConditionDeclaration parse_condition(Parser& parser) {
+  ConditionDeclaration condition;
   parser.take();
-  return {parser.expect_name("the name of the condition")};
+  condition.name = parser.expect_name("the name of the condition");
+  if (parser.silent || !parser.accept(TokenKind::left_bracket)) return condition;
+  condition.count = parse_expression(parser, "a number of conditions");
+  parser.expect(TokenKind::right_bracket);
+  return condition;
 }
 
 // The text between the braces is GLSL: only the braces count.
@@ -146,12 +187,20 @@ Parameter parse_surface(Parser& parser) {
   return parameter;
 }
 
+const char* port_type(const Parameter& parameter) { return parameter.kind == Parameter::Kind::image ? "a format" : "an element type"; }
+
 Parameter parse_parameter(Parser& parser) {
   const uint32_t begin = parser.peek().begin;
   const bool prefixed = parser.is(TokenKind::identifier, 1);
   if (prefixed && parser.is_word("surface")) return parse_surface(parser);
   Parameter parameter;
-  if (prefixed) parameter.writable = parser.accept_word("inout");
+  const bool directed = prefixed && (parser.is_word("in") || parser.is_word("out") || parser.is_word("inout"));
+  if (directed) {
+    parameter.direction = parser.is_word("in")    ? Parameter::Direction::in
+                          : parser.is_word("out") ? Parameter::Direction::out
+                                                  : Parameter::Direction::inout;
+    parser.take();
+  }
   if (prefixed && parser.accept_word("params"))
     parameter.kind = Parameter::Kind::params;
   else if (prefixed && parser.accept_word("image"))
@@ -162,7 +211,9 @@ Parameter parse_parameter(Parser& parser) {
     parameter.kind = Parameter::Kind::constant;
   parameter.name = parser.expect_name("a parameter");
   const bool typed = parameter.kind == Parameter::Kind::params || parameter.kind == Parameter::Kind::interface;
+  const bool port = parameter.kind == Parameter::Kind::image || parameter.kind == Parameter::Kind::buffer;
   if (typed && parser.expect(TokenKind::colon)) parameter.type = parse_place(parser, "a type");
+  if (port && !parser.silent && parser.accept(TokenKind::colon)) parameter.type = parse_place(parser, port_type(parameter));
   parameter.span = parser.since(begin);
   return parameter;
 }
@@ -194,16 +245,15 @@ When parse_when(Parser& parser) {
   When when;
   const uint32_t begin = parser.peek().begin;
   parser.take();
-  when.negated = parser.is(TokenKind::identifier, 1) && parser.accept_word("not");
-  when.feature = parser.expect_name("a feature");
-  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
-    when.negated ^= parser.is(TokenKind::not_equal);
-    parser.take();
-    when.value = parser.expect_name("a value of the feature");
-  }
+  when.term = parse_feature_term(parser);
   when.span = parser.since(begin);
   parse_items(parser, when.body);
-  if (parser.accept_word("else")) parse_items(parser, when.otherwise);
+  if (!parser.accept_word("else")) return when;
+  const Nested nested(parser);
+  if (nested.fits && parser.is_word("when"))
+    when.otherwise.push_back({parse_when(parser)});
+  else
+    parse_items(parser, when.otherwise);
   return when;
 }
 
@@ -211,8 +261,20 @@ IfHost parse_if(Parser& parser) {
   IfHost branch;
   const uint32_t begin = parser.peek().begin;
   parser.take();
-  parser.expect_one_of("`host`", {"host"});
+  const bool forgotten = parser.is(TokenKind::identifier) && !parser.is_word("host") && !parser.peek().starts_line &&
+                         (parser.is(TokenKind::left_brace, 1) || parser.is(TokenKind::left_bracket, 1));
+  if (forgotten) {
+    const Span span{parser.file, parser.peek().begin, parser.peek().begin};
+    parser.complain(Diagnostic(DiagnosticKind::UnexpectedToken, parser.here(), {"`host`", "`" + std::string(parser.word().substr(0, 40)) + "`"})
+                        .fix(span, "host "));
+  } else {
+    parser.expect_one_of("`host`", {"host"});
+  }
   if (!parser.silent) branch.condition = parser.expect_name("a condition");
+  if (!parser.silent && parser.accept(TokenKind::left_bracket)) {
+    branch.index = parse_expression(parser, "an index");
+    parser.expect(TokenKind::right_bracket);
+  }
   branch.span = parser.since(begin);
   parse_items(parser, branch.body);
   return branch;
@@ -326,8 +388,8 @@ bool rejoin_graph(Parser& parser, File& file) {
 void complain_about_declaration(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state",
-                                                    "feature", "condition", "set", "graph", "technique"});
+  const std::string guess = closest(parser.word(), {"module", "import", "target", "private", "const", "extent", "struct", "interface", "sampler",
+                                                    "state", "feature", "condition", "set", "graph", "technique"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -342,6 +404,11 @@ void parse_module(Parser& parser, File& file) {
 StructDeclaration parse_struct_declaration(Parser& parser) {
   parser.take();
   return parse_struct(parser);
+}
+
+bool hides_name(std::string_view word) {
+  constexpr std::string_view kNamed[] = {"const", "extent", "struct", "interface", "sampler", "state", "feature", "condition", "set", "technique"};
+  return std::find(std::begin(kNamed), std::end(kNamed), word) != std::end(kNamed);
 }
 
 void parse_any_declaration(Parser& parser, File& file) {
@@ -380,9 +447,14 @@ void parse_any_declaration(Parser& parser, File& file) {
 // Half a declaration would only cause more messages; its name counts as lost.
 void parse_one_declaration(Parser& parser, File& file) {
   const size_t count = file.declarations.size();
+  Name word;
+  const bool hides = parser.is_word("private") && parser.is(TokenKind::identifier, 1) && hides_name(text_of(parser.peek(1), parser.text));
+  if (hides) word = parser.take_name();
   parse_any_declaration(parser, file);
+  file.private_words.resize(file.declarations.size());
+  if (file.declarations.size() > count) file.private_words.back() = word;
   const bool half = parser.silent && file.declarations.size() > count && !std::holds_alternative<GraphDeclaration>(file.declarations.back());
-  if (half) file.declarations.pop_back();
+  if (half) file.declarations.pop_back(), file.private_words.pop_back();
 }
 
 }  // namespace

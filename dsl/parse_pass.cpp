@@ -186,13 +186,16 @@ ast::HostTransfer parse_host_transfer(Parser& parser) {
   ast::HostTransfer host;
   host.span = parser.here();
   parser.take();
+  bool told = false;
   parse_block(parser, Level::pass, [&] {
     if (parser.is_word("read") || parser.is_word("write") || parser.is_word("update"))
       host.accesses.push_back(parse_access(parser, parser.is_word("read")    ? ast::Verb::read
                                                    : parser.is_word("write") ? ast::Verb::write
                                                                              : ast::Verb::update));
+    else if (told)
+      parser.silent = true;
     else
-      parser.unexpected("`read`, `write` or `update`");
+      told = true, parser.unexpected("`read`, `write` or `update`");
   });
   return host;
 }

@@ -1,12 +1,16 @@
 // `image NAME : FORMAT SIZE settings`, `buffer NAME : T[n] settings`, members of interfaces.
+#include <algorithm>
+
 #include "dsl/parser_state.h"
 
 namespace rg::dsl {
 namespace {
 
 constexpr SettingShape kResourceSettings[] = {
-    {"mips", "", 0, 1}, {"layers", "", 0, 1}, {"samples", "", 0, 1},    {"history", "", 0, 1},  {"cube", "", 0, 0},   {"1d", "", 0, 0},
-    {"2d", "", 0, 0},   {"3d", "", 0, 0},     {"persistent", "", 0, 0}, {"readback", "", 0, 0}, {"output", "", 0, 0}, {"no", "alias", 0, 0},
+    {"mips", "", 0, 1},          {"layers", "", 0, 1},   {"samples", "", 0, 1}, {"history", "", 0, 1},
+    {"cube", "", 0, 0},          {"1d", "", 0, 0},       {"2d", "", 0, 0},      {"3d", "", 0, 0},
+    {"persistent", "", 0, 0},    {"readback", "", 0, 0}, {"output", "", 0, 0},  {"no", "alias", 0, 0},
+    {"layout", "general", 0, 0},
 };
 
 void parse_init(Parser& parser, ast::ResourceDeclaration& resource) {
@@ -83,6 +87,18 @@ ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclarati
   return finish(parser, std::move(image));
 }
 
+namespace {
+
+// The comma after the last stage parts parameters or members: `surface s: rgba8 view after storage in compute, params p: P`.
+bool ends_stages(const Parser& parser) {
+  if (!parser.is(TokenKind::comma) || !parser.is(TokenKind::identifier, 1)) return true;
+  constexpr std::string_view kParameters[] = {"params", "surface", "in", "out", "inout", "image", "buffer", "const"};
+  const bool parameter = std::find(std::begin(kParameters), std::end(kParameters), text_of(parser.peek(1), parser.text)) != std::end(kParameters);
+  return parameter || parser.is(TokenKind::colon, 2);
+}
+
+}  // namespace
+
 ast::Usage parse_usage(Parser& parser) {
   ast::Usage usage;
   const uint32_t begin = parser.peek().begin;
@@ -94,7 +110,7 @@ ast::Usage parse_usage(Parser& parser) {
   if (!parser.silent && parser.accept_word("in")) {
     do {
       usage.stages.push_back(parser.expect_name("a stage"));
-    } while (!parser.silent && parser.accept(TokenKind::comma));
+    } while (!parser.silent && !ends_stages(parser) && parser.accept(TokenKind::comma));
   }
   usage.span = parser.since(begin);
   return usage;
@@ -111,7 +127,7 @@ ast::ResourceDeclaration parse_resource(Parser& parser) {
     parser.expect(TokenKind::right_bracket);
   }
   const bool colon = parser.expect(TokenKind::colon);
-  if (!colon && parser.is(TokenKind::colon, 1) && !parser.peek(1).starts_line) parser.at += 2;  // one word too many
+  if (!colon && parser.is(TokenKind::colon, 1) && !parser.peek(1).starts_line) parser.at += 2, parser.lost_names = true;  // one word too many
   if (!colon && !parser.is(TokenKind::identifier)) return finish(parser, std::move(resource));
   const bool missing_colon = parser.silent;
   parser.silent = false;

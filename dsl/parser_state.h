@@ -9,6 +9,7 @@
 #include <string>
 
 #include "dsl/ast.h"
+#include "dsl/closest.h"
 #include "dsl/diagnostics.h"
 #include "dsl/token.h"
 
@@ -77,9 +78,6 @@ void parse_block(Parser& parser, Level level, One one);
 bool starts_outer(const Parser& parser, Level level);
 bool open_block(Parser& parser);
 void close_block(Parser& parser, Span open);
-
-// The closest word within a small edit distance; empty if there is none.
-std::string closest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 ast::Expr parse_expression(Parser& parser, const char* what = "an expression");
 ast::Expr parse_place(Parser& parser, const char* what);  // a name with `.member`, `[index]` and `.member(call)` behind it

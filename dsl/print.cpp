@@ -71,8 +71,10 @@ struct Printer {
 };
 
 void print_extent(Printer& at, const Extent& extent) {
-  at.line("extent {} axes {} initial {}x{}x{} max {}x{}x{}", extent.name, extent.axes, extent.initial[0], extent.initial[1], extent.initial[2],
-          extent.maximum[0], extent.maximum[1], extent.maximum[2]);
+  const auto size = [](const int64_t(&axes)[3]) { return fmt::format("{}x{}x{}", axes[0], axes[1], axes[2]); };
+  const std::string minimum = size(extent.minimum);
+  at.line("extent {} axes {} initial {}{} max {}", extent.name, extent.axes, size(extent.initial), minimum == "1x1x1" ? "" : " min " + minimum,
+          size(extent.maximum));
 }
 
 void print_struct(Printer& at, const Struct& record) {
@@ -96,8 +98,8 @@ void print_state(Printer& at, const State& state) {
 
 std::string shape_text(const Program& program, const Resource& resource) {
   if (resource.kind == ResourceKind::buffer)
-    return fmt::format("{}[{}] stride {}", print_type(program, resource.element), resource.count.valid() ? print_expr(program, resource.count) : "",
-                       resource.stride);
+    return fmt::format("{}[{}] stride {}", resource.format == Format::none ? print_type(program, resource.element) : name(resource.format),
+                       resource.count.valid() ? print_expr(program, resource.count) : "", resource.stride);
   std::string text = fmt::format("{} {} [{}", name(resource.format), word(kDimensions, resource.dimension), print_expr(program, resource.width));
   if (resource.height.valid()) text += ", " + print_expr(program, resource.height);
   if (resource.depth.valid()) text += ", " + print_expr(program, resource.depth);
@@ -122,6 +124,7 @@ void print_resource(Printer& at, size_t id, const Resource& resource) {
   if (resource.is_surface) text += " surface";
   if (resource.is_output) text += " output";
   if (resource.no_alias) text += " no alias";
+  if (resource.layout_general) text += " layout general";
   at.line("{}{} ({})", text, guard_text(at.program, resource.guard), resource.module);
 }
 
@@ -151,6 +154,7 @@ void print_access(Printer& at, const Graph& graph, size_t index, const Access& a
   std::string text =
       fmt::format("    a{} {} {}{}", index, word(kModes, access.mode), resource.name, access.age ? fmt::format(".prev({})", access.age) : "");
   text += range_text(at.program, resource, access.range);
+  if (access.view != Format::none) text += fmt::format(" view {}", name(access.view));
   text += fmt::format(" as {}", word(kRoles, access.role));
   if (access.sampler.valid()) text += fmt::format("({})", at.program.samplers[access.sampler].name);
   if (access.stages) text += " in " + stages_text(access.stages);
@@ -225,6 +229,14 @@ void print_graph(Printer& at, const Graph& graph) {
             assertion.comparison.empty() ? "" : fmt::format("{}", assertion.value));
 }
 
+void print_feature(Printer& at, const Feature& feature) {
+  at.line("feature {}: {}", feature.name, fmt::join(feature.values, ", "));
+  for (const Feature::Rule& rule : feature.rules) {
+    const Feature& other = at.program.features[rule.needs.feature];
+    at.line("  {} needs {} {} {}", feature.values[rule.value], other.name, rule.needs.negated ? "!=" : "==", other.values[rule.needs.value]);
+  }
+}
+
 }  // namespace
 
 std::string print_expr(const Program& program, ExprId id) {
@@ -274,12 +286,13 @@ std::string print_type(const Program& program, const Type& type) {
 std::string print_program(const Program& program) {
   Printer at{program, {}};
   at.line("module {}", program.module);
+  for (const Profile& profile : program.profiles) at.line("target profile {}", profile.name);
   for (const Program::Constant& constant : program.constants) at.line("const {} = {}", constant.name, constant.value);
   for (const Extent& extent : program.extents) print_extent(at, extent);
   for (const Struct& record : program.structs) print_struct(at, record);
   for (const Sampler& sampler : program.samplers) print_sampler(at, sampler);
   for (const State& state : program.states) print_state(at, state);
-  for (const Feature& feature : program.features) at.line("feature {}: {}", feature.name, fmt::join(feature.values, ", "));
+  for (const Feature& feature : program.features) print_feature(at, feature);
   for (const Condition& condition : program.conditions) at.line("condition {}", condition.name);
   for (const EngineSet& set : program.engine_sets) at.line("set {} {}", set.name, set.set);
   for (const Graph& graph : program.graphs) print_graph(at, graph);

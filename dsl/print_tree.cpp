@@ -138,8 +138,12 @@ void visit(Printer& at, const For& node) {
   print_items(at, node.body);
 }
 
+std::string term_text(const FeatureTerm& term) {
+  return (term.negated ? "not " : "") + text(term.feature) + (term.value.empty() ? "" : " == " + text(term.value));
+}
+
 void visit(Printer& at, const When& node) {
-  at.line(std::string("when") + (node.negated ? " not " : " ") + text(node.feature) + (node.value.empty() ? "" : " == " + text(node.value)));
+  at.line("when " + term_text(node.term));
   print_items(at, node.body);
   if (node.otherwise.empty()) return;
   at.line("else");
@@ -147,7 +151,7 @@ void visit(Printer& at, const When& node) {
 }
 
 void visit(Printer& at, const IfHost& node) {
-  at.line("if host " + text(node.condition));
+  at.line("if host " + text(node.condition) + (node.index ? "[" + text(*node.index) + "]" : ""));
   print_items(at, node.body);
 }
 
@@ -170,6 +174,8 @@ void visit(Printer& at, const Constant& node) { at.line("const " + text(node.nam
 void visit(Printer& at, const ExtentDeclaration& node) {
   std::string out = "extent " + text(node.name) + " (runtime";
   for (const ast::Expr& axis : node.initial) out += " " + text(axis);
+  if (!node.minimum.empty()) out += ") (min";
+  for (const ast::Expr& axis : node.minimum) out += " " + text(axis);
   out += ") (max";
   for (const ast::Expr& axis : node.maximum) out += " " + text(axis);
   at.line(out + ")");
@@ -195,15 +201,20 @@ void visit(Printer& at, const StateDeclaration& node) { at.line("state " + text(
 void visit(Printer& at, const FeatureDeclaration& node) {
   std::string out = "feature " + text(node.name) + ":" + (node.is_bool ? " bool" : "");
   for (const Name& value : node.values) out += " " + text(value);
+  for (const FeatureRule& rule : node.rules)
+    out += " (" + (rule.value.empty() ? "" : text(rule.value) + " ") + (rule.excludes ? "excludes " : "requires ") + term_text(rule.term) + ")";
   at.line(out);
 }
 
-void visit(Printer& at, const ConditionDeclaration& node) { at.line("condition " + text(node.name)); }
+void visit(Printer& at, const ConditionDeclaration& node) {
+  at.line("condition " + text(node.name) + (node.count ? "[" + text(*node.count) + "]" : ""));
+}
 void visit(Printer& at, const EngineSetDeclaration& node) { at.line(fmt::format("set {} {}", text(node.name), node.set)); }
 
 std::string parameter_text(const Parameter& node) {
   constexpr const char* kKinds[] = {"params ", "surface ", "", "image ", "buffer ", "const "};
-  std::string out = (node.writable ? "inout " : "") + std::string(kKinds[static_cast<size_t>(node.kind)]);
+  constexpr const char* kDirections[] = {"", "out ", "inout "};
+  std::string out = kDirections[static_cast<size_t>(node.direction)] + std::string(kKinds[static_cast<size_t>(node.kind)]);
   if (node.kind == Parameter::Kind::surface) return out + resource_text(node.surface);
   return out + text(node.name) + (node.type.kind == ExprKind::error ? "" : ": " + text(node.type));
 }
@@ -223,6 +234,7 @@ std::string print_tree(const File& file) {
   at.line("module " + text(file.module));
   for (const Import& import : file.imports) at.line("import \"" + std::string(import.path) + "\"");
   if (file.target) at.line(fmt::format("target {} {}", text(file.target->api), file.target->version));
+  for (const ProfileTarget& profile : file.profiles) at.line("target profile \"" + std::string(profile.path) + "\"");
   for (const Declaration& declaration : file.declarations) std::visit([&](const auto& node) { visit(at, node); }, declaration);
   return at.out;
 }

@@ -46,13 +46,14 @@ struct Expr {
   friend bool operator==(const Expr&, const Expr&) = default;
 };
 
-// `extent view = runtime(1920, 1080) max(3840, 2160)`
+// `extent view = runtime(1920, 1080) min(320, 200) max(3840, 2160)`; a scalar, `extent slices = runtime(32) max(64)`, has one axis
 struct Extent {
   std::string name;
   int64_t initial[3] = {1, 1, 1};
   int64_t maximum[3] = {1, 1, 1};
   uint32_t axes = 2;
   Span span;
+  int64_t minimum[3] = {1, 1, 1};
   friend bool operator==(const Extent&, const Extent&) = default;
 };
 
@@ -207,6 +208,7 @@ struct Resource {
   bool is_surface = false;          // imported image the result is shown on
   bool is_output = false;           // observable: its producer is never culled
   bool no_alias = false;
+  bool layout_general = false;      // images: every use but presenting keeps the general layout
   Guard guard;
   Span span;
   friend bool operator==(const Resource&, const Resource&) = default;
@@ -236,6 +238,7 @@ struct Access {
   bool covers = false;     // raster: declared to define every element
   bool disjoint = false;   // writers declared to touch different elements
   Span span;
+  Format view = Format::none;  // shaders and attachments see the image through this format of the same size; none: its own
   friend bool operator==(const Access&, const Access&) = default;
 };
 
@@ -347,6 +350,9 @@ struct Graph {
   friend bool operator==(const Graph&, const Graph&) = default;
 };
 
+// The format in which the pass sees the image.
+inline Format seen_format(const Resource& image, const Access& access) { return access.view == Format::none ? image.format : access.view; }
+
 // ---- the whole --------------------------------------------------------------------------------------------------
 
 struct Feature {
@@ -354,12 +360,32 @@ struct Feature {
   std::vector<std::string> values;  // bool: {"off", "on"}
   uint32_t initial = 0;
   Span span;
+  struct Rule {  // where the feature has `value`, `needs` holds: `b: bool requires a`, `{ low, high excludes fog }`
+    uint32_t value = 0;
+    Guard::Term needs;
+    Span span;
+    friend bool operator==(const Rule&, const Rule&) = default;
+  };
+  std::vector<Rule> rules = {};  // see dsl/features.h
   friend bool operator==(const Feature&, const Feature&) = default;
 };
-struct Condition {
+struct Condition {  // `condition cache_miss[8]` is eight rows, `cache_miss[0]` ...
   std::string name;
   Span span;
+  std::string family = {};   // `cache_miss`; empty: a single condition
+  uint32_t index = 0, count = 0;
   friend bool operator==(const Condition&, const Condition&) = default;
+};
+
+// What the devices of a Vulkan Profiles file promise: the features it requires, and the limits that the language can run into.
+struct Profile {
+  std::string name;  // the front end leaves the path of its file here, relative to the root file's folder, and the rest empty
+  uint32_t api_minor = 3;                                   // Vulkan 1.x
+  std::vector<std::string> features;                        // sorted; `textureCompressionBC`
+  struct Limit { std::string name; double value = 0; friend bool operator==(const Limit&, const Limit&) = default; };
+  std::vector<Limit> limits;                                // sorted by name; `maxPushConstantsSize`
+  Span span;
+  friend bool operator==(const Profile&, const Profile&) = default;
 };
 
 struct Program {
@@ -375,6 +401,7 @@ struct Program {
   struct Constant { std::string name; int64_t value = 0; friend bool operator==(const Constant&, const Constant&) = default; };
   std::vector<Constant> constants;  // public integer constants, also given to shaders and C++
   Table<GraphId, Graph> graphs;
+  std::vector<Profile> profiles = {};  // every one must be able to run every graph
   friend bool operator==(const Program&, const Program&) = default;
 };
 

@@ -18,6 +18,8 @@ bool is_image(DescriptorType type) {
 }
 bool is_buffer(DescriptorType type) { return type == DescriptorType::uniform_buffer || type == DescriptorType::storage_buffer; }
 
+bool is_texels(DescriptorType type) { return type == DescriptorType::uniform_texel_buffer || type == DescriptorType::storage_texel_buffer; }
+
 bool is_imported(const Sized& sized, const Binding& binding) {
   return binding.ref.resource != kNone && sized.resources[binding.ref.resource].count == 0;
 }
@@ -67,7 +69,8 @@ Status create_pool(const Context& context, Sized& sized) {
   info.poolSizeCount = static_cast<uint32_t>(sizes.rows.size());
   info.pPoolSizes = sizes.rows.data();
   VkDescriptorPool pool = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateDescriptorPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateDescriptorPool", context.plan.name));
+  RG_TRY(check(context.vk().CreateDescriptorPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateDescriptorPool",
+               context.plan.name));
   sized.descriptor_pool = UniqueDescriptorPool(context.vk(), context.device.device, pool);
   return Done{};
 }
@@ -127,6 +130,28 @@ void write_buffer(const Context& context, const Sized& sized, const Binding& bin
   }
 }
 
+// Views of texels are made once: the engine brings none.
+Status write_texels(const Context& context, Sized& sized, const Binding& binding, const SetTable& table) {
+  for (uint32_t phase = 0; phase < table.period; ++phase) {
+    const VkDescriptorBufferInfo bytes =
+        buffer_info(buffer_at(sized, {}, context.plan, binding.ref, byte_range(context, sized, binding.bytes), phase));
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = bytes.buffer;
+    info.format = static_cast<VkFormat>(binding.view_format);
+    info.offset = bytes.offset;
+    info.range = bytes.range;
+    VkBufferView view = VK_NULL_HANDLE;
+    RG_TRY(check(context.vk().CreateBufferView(context.device.device, &info, nullptr, &view), "vkCreateBufferView",
+                 context.plan.resources[binding.ref.resource].name));
+    sized.buffer_views.emplace_back(context.vk(), context.device.device, view);
+    VkWriteDescriptorSet write = write_header(table.sets[phase], binding);
+    write.pTexelBufferView = &view;
+    context.vk().UpdateDescriptorSets(context.device.device, 1, &write, 0, nullptr);
+  }
+  return Done{};
+}
+
 void add_imported(const Context& context, const Objects& objects, const Binding& binding, const ViewRef& view, SetTable& table) {
   ImportedBinding imported{&binding, view.imported, context.plan.resources[binding.ref.resource].import_slot, VK_NULL_HANDLE, {}};
   if (is_image(binding.type)) imported.sampler = image_info(objects, binding, VK_NULL_HANDLE).sampler;
@@ -143,6 +168,7 @@ Status fill_binding(const Context& context, const Objects& objects, Sized& sized
     pass.runs &= view.exists;
     if (!view.exists) return Done{};
   }
+  if (is_texels(binding.type)) return write_texels(context, sized, binding, pass.set);
   if (is_imported(sized, binding))
     add_imported(context, objects, binding, view, pass.set);
   else if (is_image(binding.type) || binding.type == DescriptorType::sampler)

@@ -73,9 +73,9 @@ Status check_extents(const Plan& plan, std::span<const int64_t> values) {
   for (size_t i = 0; i < values.size(); ++i) {
     const Extent& extent = plan.extents[i / 3];
     if (i % 3 >= extent.axes) continue;
-    if (values[i] < 1 || values[i] > extent.maximum[i % 3])
-      return Error{ErrorCode::invalid_argument, "extent `" + std::string(extent.name) + "`: " + std::to_string(values[i]) + " is not in 1 to " +
-                                                    std::to_string(extent.maximum[i % 3])};
+    if (values[i] < extent.minimum[i % 3] || values[i] > extent.maximum[i % 3])
+      return Error{ErrorCode::invalid_argument, "extent `" + std::string(extent.name) + "`: " + std::to_string(values[i]) + " is not in " +
+                                                    std::to_string(extent.minimum[i % 3]) + " to " + std::to_string(extent.maximum[i % 3])};
   }
   return Done{};
 }

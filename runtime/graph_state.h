@@ -261,6 +261,7 @@ struct Sized {
   std::vector<VkBuffer> buffers;
   std::vector<HostCopy> host_copies;  // by buffer; empty for those the host cannot see
   std::vector<UniqueView> views;
+  std::vector<UniqueBufferView> buffer_views;
   std::vector<ImportedView> imported_views;
   Ring ring;
   UniqueDescriptorPool descriptor_pool;

@@ -35,6 +35,7 @@ using UniqueMemory = Unique<VkDeviceMemory, &DeviceFunctions::FreeMemory>;
 using UniqueBuffer = Unique<VkBuffer, &DeviceFunctions::DestroyBuffer>;
 using UniqueImage = Unique<VkImage, &DeviceFunctions::DestroyImage>;
 using UniqueView = Unique<VkImageView, &DeviceFunctions::DestroyImageView>;
+using UniqueBufferView = Unique<VkBufferView, &DeviceFunctions::DestroyBufferView>;
 using UniqueSampler = Unique<VkSampler, &DeviceFunctions::DestroySampler>;
 using UniqueShader = Unique<VkShaderModule, &DeviceFunctions::DestroyShaderModule>;
 using UniquePipelineLayout = Unique<VkPipelineLayout, &DeviceFunctions::DestroyPipelineLayout>;

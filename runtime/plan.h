@@ -60,6 +60,7 @@ struct Extent {
   uint32_t axes = 2;
   int64_t initial[3] = {1, 1, 1};
   int64_t maximum[3] = {1, 1, 1};
+  int64_t minimum[3] = {1, 1, 1};
 };
 
 // ---- resources ----------------------------------------------------------------------------------------------------
@@ -255,7 +256,8 @@ struct Pipeline {
 };
 
 enum class DescriptorType : uint32_t {  // VkDescriptorType
-  sampler = 0, combined_image_sampler = 1, sampled_image = 2, storage_image = 3, uniform_buffer = 6, storage_buffer = 7, uniform_buffer_dynamic = 8, input_attachment = 10,
+  sampler = 0, combined_image_sampler = 1, sampled_image = 2, storage_image = 3,
+  uniform_texel_buffer = 4, storage_texel_buffer = 5, uniform_buffer = 6, storage_buffer = 7, uniform_buffer_dynamic = 8, input_attachment = 10,
 };
 struct Binding {  // one descriptor of set 1
   uint32_t binding = 0;

@@ -132,7 +132,9 @@ void check_binding(const Plan& plan, size_t i, Checker& c) {
   if (is_image_type(binding.type)) return c.ref(binding.ref, ResourceKind::image, "binding", i, "image");
   if (binding.type == DescriptorType::sampler) return c.that(binding.sampler != kNone, "binding", i, "no sampler");
   if (binding.type == DescriptorType::uniform_buffer_dynamic) return c.index(binding.params, plan.params.size(), "binding", i, "parameter block");
-  c.that(binding.type == DescriptorType::uniform_buffer || binding.type == DescriptorType::storage_buffer, "binding", i, "type");
+  const bool texels = binding.type == DescriptorType::uniform_texel_buffer || binding.type == DescriptorType::storage_texel_buffer;
+  c.that(texels || binding.type == DescriptorType::uniform_buffer || binding.type == DescriptorType::storage_buffer, "binding", i, "type");
+  if (texels) c.that(binding.view_format != Format::undefined, "binding", i, "no format of its texels");
   c.ref(binding.ref, ResourceKind::buffer, "binding", i, "buffer");
 }
 

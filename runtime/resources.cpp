@@ -75,7 +75,7 @@ VkBufferUsageFlags buffer_usage(const Context& context, const Resource& resource
 VkImageCreateFlags image_flags(const Resource& resource) {
   VkImageCreateFlags flags = 0;
   if (resource.lifetime == Lifetime::transient && !resource.no_alias) flags |= VK_IMAGE_CREATE_ALIAS_BIT;
-  if (resource.mutable_format) flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
+  if (resource.mutable_format) flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT | VK_IMAGE_CREATE_EXTENDED_USAGE_BIT;
   if (resource.dimension == Dimension::cube) flags |= VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
   constexpr VkImageUsageFlags attachment = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
   if (resource.dimension == Dimension::d3 && (resource.usage & attachment) != 0) flags |= VK_IMAGE_CREATE_2D_ARRAY_COMPATIBLE_BIT;

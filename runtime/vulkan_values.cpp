@@ -83,6 +83,8 @@ RG_VALUE(DescriptorType::sampler, VK_DESCRIPTOR_TYPE_SAMPLER);
 RG_VALUE(DescriptorType::combined_image_sampler, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER);
 RG_VALUE(DescriptorType::sampled_image, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE);
 RG_VALUE(DescriptorType::storage_image, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+RG_VALUE(DescriptorType::uniform_texel_buffer, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+RG_VALUE(DescriptorType::storage_texel_buffer, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER);
 RG_VALUE(DescriptorType::uniform_buffer, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
 RG_VALUE(DescriptorType::storage_buffer, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
 RG_VALUE(DescriptorType::uniform_buffer_dynamic, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC);

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "compiler/expressions.h"
+#include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/check_macro.h"
 
@@ -163,6 +164,10 @@ DescriptorType descriptor_type(BindingKind kind) {
       return DescriptorType::uniform_buffer;
     case BindingKind::params:
       return DescriptorType::uniform_buffer_dynamic;
+    case BindingKind::texel_buffer:
+      return DescriptorType::uniform_texel_buffer;
+    case BindingKind::storage_texel_buffer:
+      return DescriptorType::storage_texel_buffer;
   }
   return DescriptorType::sampled_image;
 }
@@ -172,9 +177,11 @@ void bind_resource(const Binder& b, const Pass& pass, const dsl::Access& access,
   binding.ref = {b.plan_resource.at(access.resource.value), access.age};
   if (resource.kind == dsl::ResourceKind::buffer) {
     binding.bytes = {index_of(access.range.offset), index_of(access.range.size)};
+    if (resource.format != dsl::Format::none) binding.view_format = format_row(resource.format).vulkan;
     return;
   }
   const ViewShape view = view_shape(resource, access);
+  if (access.view != dsl::Format::none) binding.view_format = format_row(access.view).vulkan;
   binding.range = {view.aspects, access.range.mip, access.range.mips, access.range.layer, access.range.layers};
   binding.view = static_cast<Dimension>(view.dimension);
   binding.arrayed = view.arrayed;

@@ -51,6 +51,10 @@ std::string descriptor_text(DescriptorType type) {
       return "DescriptorType::sampled_image";
     case DescriptorType::storage_image:
       return "DescriptorType::storage_image";
+    case DescriptorType::uniform_texel_buffer:
+      return "DescriptorType::uniform_texel_buffer";
+    case DescriptorType::storage_texel_buffer:
+      return "DescriptorType::storage_texel_buffer";
     case DescriptorType::uniform_buffer:
       return "DescriptorType::uniform_buffer";
     case DescriptorType::storage_buffer:

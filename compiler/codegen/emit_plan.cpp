@@ -110,7 +110,10 @@ void PlanEmitter::values() {
     const auto triple = [](const int64_t(&v)[3]) {
       return "{" + std::to_string(v[0]) + ", " + std::to_string(v[1]) + ", " + std::to_string(v[2]) + "}";
     };
-    return Row().string("name", e.name).number("axes", e.axes, 2).field("initial", triple(e.initial)).field("maximum", triple(e.maximum));
+    Row row;
+    row.string("name", e.name).number("axes", e.axes, 2).field("initial", triple(e.initial)).field("maximum", triple(e.maximum));
+    if (e.minimum[0] != 1 || e.minimum[1] != 1 || e.minimum[2] != 1) row.field("minimum", triple(e.minimum));
+    return row;
   });
 }
 

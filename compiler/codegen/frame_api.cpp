@@ -113,6 +113,26 @@ std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& nam
   return readbacks;
 }
 
+// An array of conditions is one member.
+void collect_conditions(const dsl::Program& program, FrameApi& api) {
+  std::vector<size_t> member_of;
+  for (const dsl::Condition& condition : program.conditions) {
+    const bool goes_on = condition.count > 0 && condition.index > 0;
+    if (!goes_on) api.conditions.push_back({condition.count > 0 ? condition.family : condition.name, "bool", ""});
+    member_of.push_back(api.conditions.size() - 1);
+  }
+  name_members(api.conditions);
+  for (size_t bit = 0; bit < member_of.size(); ++bit) {
+    const dsl::Condition& condition = program.conditions.rows[bit];
+    const std::string index = condition.count > 0 ? "[" + std::to_string(condition.index) + "]" : "";
+    api.condition_bits.push_back(api.conditions[member_of[bit]].name + index);
+  }
+  for (size_t bit = 0; bit < member_of.size(); ++bit) {
+    const dsl::Condition& condition = program.conditions.rows[bit];
+    if (condition.count > 0 && condition.index == 0) api.conditions[member_of[bit]].name += "[" + std::to_string(condition.count) + "]";
+  }
+}
+
 }  // namespace
 
 FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const FramePlan& frame, const dsl::SourceFiles& files) {
@@ -130,8 +150,7 @@ FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const F
   api.imports = collect_imports(source);
   api.params = collect_params(source);
   api.updates = collect_updates(source);
-  for (const std::string_view condition : frame.plan.conditions) api.conditions.push_back({std::string(condition), "bool", ""});
-  name_members(api.conditions);
+  collect_conditions(program, api);
   for (const EngineSet& set : frame.plan.engine_sets) api.engine_sets.push_back({std::string(set.name), "rg::Required<VkDescriptorSet>", ""});
   name_members(api.engine_sets);
   api.passes = collect_passes(source, api.names);

@@ -32,6 +32,7 @@ struct FrameApi {
   PlanNames names;
   std::vector<ApiExtent> extents;
   std::vector<ApiMember> imports, params, updates, conditions, engine_sets;
+  std::vector<std::string> condition_bits;  // by bit: the member or element of Conditions, `cache_miss[3]`
   std::vector<ApiPass> passes;
   std::vector<ApiReadback> readbacks;
 };

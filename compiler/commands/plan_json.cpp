@@ -80,9 +80,10 @@ struct PlanJson {
   }
 
   Json extent(const Extent& row) const {
-    Json initial = Json::array(), maximum = Json::array();
-    for (uint32_t axis = 0; axis < row.axes; ++axis) initial.push_back(row.initial[axis]), maximum.push_back(row.maximum[axis]);
-    return {{"name", row.name}, {"initial", initial}, {"maximum", maximum}};
+    Json initial = Json::array(), minimum = Json::array(), maximum = Json::array();
+    for (uint32_t axis = 0; axis < row.axes; ++axis)
+      initial.push_back(row.initial[axis]), minimum.push_back(row.minimum[axis]), maximum.push_back(row.maximum[axis]);
+    return {{"name", row.name}, {"initial", initial}, {"minimum", minimum}, {"maximum", maximum}};
   }
 
   Json resource(const Resource& row) const {

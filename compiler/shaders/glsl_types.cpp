@@ -79,6 +79,22 @@ std::string glsl_image_format(dsl::Format format) {
       {Format::rgba32ui, "rgba32ui"},
       {Format::rgba32f, "rgba32f"},
       {Format::r11g11b10f, "r11f_g11f_b10f"},
+      {Format::rgb10a2ui, "rgb10_a2ui"},
+      {Format::r8_snorm, "r8_snorm"},
+      {Format::r8i, "r8i"},
+      {Format::rg8_snorm, "rg8_snorm"},
+      {Format::rg8ui, "rg8ui"},
+      {Format::rg8i, "rg8i"},
+      {Format::rgba8i, "rgba8i"},
+      {Format::r16_snorm, "r16_snorm"},
+      {Format::r16i, "r16i"},
+      {Format::rg16ui, "rg16ui"},
+      {Format::rg16i, "rg16i"},
+      {Format::rgba16_snorm, "rgba16_snorm"},
+      {Format::rgba16ui, "rgba16ui"},
+      {Format::rgba16i, "rgba16i"},
+      {Format::rg32i, "rg32i"},
+      {Format::rgba32i, "rgba32i"},
   };
   const auto found = names.find(format);
   return found == names.end() ? "" : found->second;

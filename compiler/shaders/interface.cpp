@@ -69,8 +69,8 @@ std::string view_suffix(const ViewShape& view, bool multisampled) {
   return "2D";
 }
 
-std::string texel_prefix(const dsl::Resource& image, const ViewShape& view) {
-  const char kind = texel_kind(image.format, view.aspects);
+std::string texel_prefix(dsl::Format format, const ViewShape& view) {
+  const char kind = texel_kind(format, view.aspects);
   return kind == 'f' ? "" : std::string(1, kind);
 }
 
@@ -82,11 +82,16 @@ const char* memory_qualifier(dsl::Mode mode) {
 std::string opaque_type(const dsl::Program& program, const dsl::Resource& image, const dsl::Access& access, BindingKind kind) {
   const ViewShape view = view_shape(image, access);
   const std::string suffix = view_suffix(view, image.samples > 1);
-  const std::string prefix = texel_prefix(image, view);
+  const std::string prefix = texel_prefix(dsl::seen_format(image, access), view);
   if (kind == BindingKind::storage_image) return prefix + "image" + suffix;
   if (kind == BindingKind::texture) return prefix + "texture" + suffix;
   const bool compares = program.samplers[access.sampler].compare.has_value();
   return prefix + "sampler" + suffix + (compares ? "Shadow" : "");
+}
+
+std::string texel_buffer_type(const dsl::Resource& buffer, BindingKind kind) {
+  const char texel = texel_kind(buffer.format, 1);
+  return (texel == 'f' ? "" : std::string(1, texel)) + (kind == BindingKind::texel_buffer ? "textureBuffer" : "imageBuffer");
 }
 
 std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, const InterfaceBinding& binding) {
@@ -103,9 +108,11 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
            binding.name + "[]; };";
   if (binding.kind == BindingKind::uniform_buffer)
     return "layout(" + place + ", std140) uniform " + block + " { " + glsl_variable(program, resource.element, binding.name) + "; };";
-  const std::string type = opaque_type(program, resource, access, binding.kind);
-  if (binding.kind != BindingKind::storage_image) return "layout(" + place + ") uniform " + type + " " + binding.name + ";";
-  const std::string format = glsl_image_format(resource.format);
+  const bool texels = resource.kind == dsl::ResourceKind::buffer;
+  const std::string type = texels ? texel_buffer_type(resource, binding.kind) : opaque_type(program, resource, access, binding.kind);
+  if (binding.kind != BindingKind::storage_image && binding.kind != BindingKind::storage_texel_buffer)
+    return "layout(" + place + ") uniform " + type + " " + binding.name + ";";
+  const std::string format = glsl_image_format(dsl::seen_format(resource, access));
   return "layout(" + place + (format.empty() ? "" : ", " + format) + ") " + memory_qualifier(access.mode) + "uniform " + type + " " + binding.name +
          ";";
 }
@@ -157,13 +164,13 @@ bool is_image(const dsl::Graph& graph, const dsl::Access& access) { return graph
 
 // False where the access is made by fixed function, transfers or the host.
 bool binding_kind(const dsl::Graph& graph, const dsl::Access& access, BindingKind& kind) {
-  const bool image = is_image(graph, access);
+  const bool image = is_image(graph, access), texels = !image && graph.resources[access.resource].format != dsl::Format::none;
   switch (access.role) {
     case dsl::Role::sampled:
-      kind = access.sampler.valid() ? BindingKind::combined_sampler : BindingKind::texture;
-      return image;
+      kind = texels ? BindingKind::texel_buffer : access.sampler.valid() ? BindingKind::combined_sampler : BindingKind::texture;
+      return image || texels;
     case dsl::Role::storage:
-      kind = image ? BindingKind::storage_image : BindingKind::storage_buffer;
+      kind = image ? BindingKind::storage_image : texels ? BindingKind::storage_texel_buffer : BindingKind::storage_buffer;
       return true;
     case dsl::Role::uniform:
       kind = BindingKind::uniform_buffer;

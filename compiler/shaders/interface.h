@@ -9,7 +9,16 @@
 
 namespace rg::compiler {
 
-enum class BindingKind : uint8_t { combined_sampler, texture, storage_image, storage_buffer, uniform_buffer, params };
+enum class BindingKind : uint8_t {
+  combined_sampler,
+  texture,
+  storage_image,
+  storage_buffer,
+  uniform_buffer,
+  params,
+  texel_buffer,
+  storage_texel_buffer
+};
 
 // One descriptor of set 1. Numbers follow Pass::accesses, then Pass::params; an access no shader can see has none.
 //

@@ -38,7 +38,9 @@ ReflectedBinding reflect_binding(const Compiler& compiler, const Resource& resou
   binding.set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
   binding.binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
   binding.kind = kind;
-  if (!is_block && type.basetype != SPIRType::Sampler) {
+  const bool texels = !is_block && type.basetype != SPIRType::Sampler && type.image.dim == spv::DimBuffer;
+  if (texels) binding.kind = kind == BindingKind::storage_image ? BindingKind::storage_texel_buffer : BindingKind::texel_buffer;
+  if (!is_block && !texels && type.basetype != SPIRType::Sampler) {
     binding.dimension = dimension(type.image.dim);
     binding.arrayed = type.image.arrayed;
   }

@@ -34,7 +34,7 @@ graph g(surface s: rgba8 4x4) {  //~ note[RG0202]: `s` is declared here
   pass p20 : compute { write srgb as storage }  //~ error[RG0349]: `srgb` is of format `rgba8_srgb`, which images used as `storage` cannot have
   pass p21 : compute { write block as storage }  //~ error[RG0325]: `block` is block-compressed (`bc1`) and cannot be used as storage
   pass p22 : compute { write color as storage }  //~ error[RG0350]: `color` has 2 mips and `storage` takes one: say `color.mip(i)`
-  pass p23 : compute { atomic pairs as storage clear 4 }  //~ error[RG0331]: `pairs` holds structs: it can only be cleared to 0
+  pass p23 : compute { atomic pairs as storage clear 4 }  //~ error[RG0331]: `pairs` holds structs or texels: it can only be cleared to 0
   pass p24 : compute { read color as sampled(missing) }  //~ error[RG0203]: there is no sampler called `missing`
   pass p25 : raster { color s blend add(one, one) readonly }  //~ error[RG0340]: `readonly` does not go with `color`
   pass p26 : compute { read data as storage in fragmnt }  //~ error[RG0243]: there is no stage called `fragmnt`

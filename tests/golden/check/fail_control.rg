@@ -2,7 +2,9 @@ module control
 feature fog: bool
 feature path: { low, high, low }  //~ error[RG0201]: `low` is declared twice
 //~^ note[RG0202]: `low` is declared here
+//~^^ note[RG0202]: `path` is declared here
 technique loop(image a) { use loop(a) }  //~ error[RG0234]: technique `loop` is used more than 16 levels deep
+//~^ note[RG0452]: `loop` is used here
 technique one(image a, buffer b) { }  //~ note[RG0202]: `one` is declared here
 technique wants(surface s: rgba8 4x4) { }  //~ error[RG0236]: parameter `s` is of a kind that only graphs take
 graph g(image a, surface s: rgba8 4x4) {  //~ error[RG0235]: parameter `a` is of a kind that only techniques take
@@ -13,7 +15,7 @@ graph g(image a, surface s: rgba8 4x4) {  //~ error[RG0235]: parameter `a` is of
   when path == hihg { }  //~ error[RG0203]: there is no value of feature `path` called `hihg`
   when fogg { }  //~ error[RG0203]: there is no feature called `fogg`
   if host missed { }  //~ error[RG0203]: there is no condition called `missed`
-  use loop(x)
+  use loop(x)  //~ note[RG0452]: `loop` is used here
   use one(x)  //~ error[RG0225]: `one` does not take 1 arguments
   use one(y, x)  //~ error[RG0237]: `y` is a buffer; parameter `a` takes an image
   use wants(s)

@@ -1,0 +1,83 @@
+// Clear values: numbers become the bits that a format or an element holds.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "dsl/check_state.h"
+
+namespace rg::dsl {
+namespace {
+
+int32_t to_signed(double value) { return static_cast<int32_t>(std::clamp(value, -2147483648.0, 2147483647.0)); }
+uint32_t to_unsigned(double value) { return static_cast<uint32_t>(std::clamp(value, 0.0, 4294967295.0)); }
+
+void set_image_clear(ClearValue& out, const FormatInfo& format, uint32_t aspects, const std::vector<double>& numbers) {
+  out.integer = format.is_integer() && format.is_color();
+  const bool is_color = format.is_color();
+  for (size_t i = 0; i < 4; ++i) {
+    const double number = numbers.size() == 1 ? numbers[0] : i < numbers.size() ? numbers[i] : 0.0;
+    if (is_color && out.integer)
+      out.u[i] = format.numeric == Numeric::sint ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
+    else if (is_color)
+      out.f[i] = static_cast<float>(number);
+  }
+  if (is_color) return;
+  const bool depth = ((aspects ? aspects : format.aspects) & aspect_depth) != 0;
+  if (depth)
+    out.f[0] = static_cast<float>(numbers[0]);
+  else
+    out.u[1] = to_unsigned(numbers[0]);
+  if (depth && numbers.size() > 1) out.u[1] = to_unsigned(numbers[1]);
+}
+
+void set_buffer_clear(ClearValue& out, Scalar scalar, double number) {
+  const auto f = static_cast<float>(number);
+  out.integer = scalar != Scalar::f32;
+  out.f[0] = f;
+  if (scalar == Scalar::f32)
+    std::memcpy(&out.u[0], &f, sizeof f);
+  else
+    out.u[0] = scalar == Scalar::i32 ? static_cast<uint32_t>(to_signed(number)) : to_unsigned(number);
+}
+
+std::vector<double> numbers_of(Checker& checker, const Value& value, Span span) {
+  if (!value.ok()) return {};
+  if (value.is_number()) return {value.real};
+  if (!value.numbers.empty()) return value.numbers;
+  checker.report(DiagnosticKind::NotANumber, span);
+  return {};
+}
+
+bool fits_format(const FormatInfo& format, const std::vector<double>& numbers) {
+  const auto whole = [](double number) { return number == std::floor(number); };
+  if (format.numeric == Numeric::uint) return std::all_of(numbers.begin(), numbers.end(), [&](double n) { return whole(n) && n >= 0; });
+  if (format.numeric == Numeric::sint) return std::all_of(numbers.begin(), numbers.end(), whole);
+  return true;
+}
+
+}  // namespace
+
+ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects) {
+  ClearValue out;
+  const std::vector<double> numbers = numbers_of(checker, evaluate_expr(checker, &scope, scope.module, expr), expr.span);
+  if (numbers.empty()) return out;
+  if (resource.kind == ResourceKind::buffer) {
+    const bool words =
+        resource.format == Format::none || resource.format == Format::r32f || resource.format == Format::r32ui || resource.format == Format::r32i;
+    const bool simple = (!resource.element.record.valid() && words) || numbers[0] == 0;
+    if (numbers.size() > 1 || !simple) checker.report(DiagnosticKind::ClearOfStruct, expr.span, {resource.name});
+    set_buffer_clear(out, resource.element.record.valid() ? Scalar::u32 : resource.element.scalar, numbers[0]);
+    return out;
+  }
+  const FormatInfo& format = info(resource.format);
+  const size_t most = format.is_color() ? 4 : 2;
+  if (numbers.size() > most)
+    checker.report(DiagnosticKind::ClearComponents, expr.span, {resource.name, std::to_string(most), std::to_string(numbers.size())});
+  if (!fits_format(format, numbers)) checker.report(DiagnosticKind::ClearOfFormat, expr.span, {resource.name, format.name});
+  const bool depth = (format.aspects & aspect_depth) != 0 && aspects != aspect_stencil;
+  if (depth && (numbers[0] < 0 || numbers[0] > 1)) checker.report(DiagnosticKind::DepthClearRange, expr.span, {resource.name});
+  set_image_clear(out, format, aspects, numbers);
+  return out;
+}
+
+}  // namespace rg::dsl

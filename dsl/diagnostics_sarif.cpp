@@ -1,0 +1,111 @@
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "dsl/diagnostics.h"
+
+namespace rg::dsl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Writer {
+  const SourceFiles& files;
+  Json rules = Json::array();
+  std::map<std::string_view, size_t> rule_index;  // by code
+};
+
+bool has_place(const SourceFiles& files, Span span) { return span.file.valid() && span.file.value < files.size(); }
+
+const char* level_of(Severity severity) {
+  constexpr const char* kLevels[] = {"error", "warning", "note"};
+  return kLevels[static_cast<size_t>(severity)];
+}
+
+// What is not plain in a URI reference is percent-encoded.
+std::string uri_of(const std::string& path) {
+  constexpr const char* kHex = "0123456789ABCDEF";
+  std::string uri;
+  for (const char c : path) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("/._-~").find(c) != std::string_view::npos;
+    const auto byte = static_cast<unsigned char>(c);
+    uri += plain ? std::string(1, c) : std::string{'%', kHex[byte >> 4], kHex[byte & 15]};
+  }
+  return uri;
+}
+
+Json region(const SourceFile& file, Span span) {
+  const Position begin = file.position(span.begin), end = file.position(span.end);
+  return {{"startLine", begin.line}, {"startColumn", begin.column}, {"endLine", end.line}, {"endColumn", end.column}};
+}
+
+Json artifact(const SourceFile& file) { return {{"uri", uri_of(file.path)}}; }
+
+Json location(const SourceFiles& files, Span span) {
+  const SourceFile& file = files[span.file];
+  return {{"physicalLocation", {{"artifactLocation", artifact(file)}, {"region", region(file, span)}}}};
+}
+
+size_t rule_of(Writer& writer, const DiagnosticRow& info) {
+  const auto [at, fresh] = writer.rule_index.emplace(info.code, writer.rules.size());
+  if (fresh)
+    writer.rules.push_back({{"id", info.code},
+                            {"name", info.name},
+                            {"shortDescription", {{"text", info.message}}},
+                            {"help", {{"text", "rgc explain " + std::string(info.code)}}},
+                            {"defaultConfiguration", {{"level", level_of(info.severity)}}}});
+  return at->second;
+}
+
+Json related(const Writer& writer, const Diagnostic& diagnostic) {
+  Json all = Json::array();
+  for (const Diagnostic& note : diagnostic.notes) {
+    if (!has_place(writer.files, note.span)) continue;
+    Json entry = {{"id", all.size() + 1}};
+    entry.update(location(writer.files, note.span));
+    entry["message"] = {{"text", note.message()}};
+    all.push_back(std::move(entry));
+  }
+  return all;
+}
+
+Json fix(const Writer& writer, const FixIt& fix) {
+  const SourceFile& file = writer.files[fix.span.file];
+  const Json replacement = {{"deletedRegion", region(file, fix.span)}, {"insertedContent", {{"text", fix.text}}}};
+  return {{"artifactChanges", Json::array({{{"artifactLocation", artifact(file)}, {"replacements", Json::array({replacement})}}})}};
+}
+
+Json fixes(const Writer& writer, const Diagnostic& diagnostic) {
+  Json all = Json::array();
+  for (const FixIt& each : diagnostic.fixes)
+    if (has_place(writer.files, each.span)) all.push_back(fix(writer, each));
+  return all;
+}
+
+Json result(Writer& writer, const Diagnostic& diagnostic) {
+  const DiagnosticRow& info = row(diagnostic.kind);
+  Json json = {{"ruleId", info.code}, {"ruleIndex", rule_of(writer, info)}, {"level", level_of(info.severity)}};
+  std::string text = diagnostic.message();
+  for (const Diagnostic& note : diagnostic.notes)
+    if (!has_place(writer.files, note.span)) text += "; " + note.message();
+  json["message"] = {{"text", text}};
+  json["locations"] = Json::array();
+  if (has_place(writer.files, diagnostic.span)) json["locations"].push_back(location(writer.files, diagnostic.span));
+  if (Json places = related(writer, diagnostic); !places.empty()) json["relatedLocations"] = std::move(places);
+  if (Json changes = fixes(writer, diagnostic); !changes.empty()) json["fixes"] = std::move(changes);
+  return json;
+}
+
+}  // namespace
+
+std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files) {
+  Writer writer{files, Json::array(), {}};
+  Json results = Json::array();
+  for (const Diagnostic& diagnostic : diagnostics.rows()) results.push_back(result(writer, diagnostic));
+  const Json driver = {{"name", "rgc"}, {"rules", writer.rules}};
+  const Json run = {{"tool", {{"driver", driver}}}, {"columnKind", "unicodeCodePoints"}, {"results", std::move(results)}};
+  const Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({run})}};
+  return log.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace rg::dsl
