@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
+
+#include "compiler/judge_facts.h"
+#include "dsl/closest.h"
 
 namespace rg::compiler {
 namespace {
@@ -11,83 +13,26 @@ namespace {
 using dsl::Assertion;
 using dsl::DiagnosticKind;
 
-// What was found: a number to compare, or the verdict of a fact that just holds or not.
-struct Finding {
-  double value = 0;
-  std::string text;
-};
-
-size_t barrier_count(const PlanData& plan) { return plan.memory_barriers.size() + plan.image_barriers.size() + plan.buffer_barriers.size(); }
-
-template <class Measure>
-double worst(const std::vector<FramePlan>& plans, Measure measure) {
-  double value = 0;
-  for (const FramePlan& plan : plans) value = std::max(value, static_cast<double>(measure(plan)));
-  return value;
+std::string amount(double value, bool bytes) {
+  if (!bytes) return fmt::format("{:.0f}", value);
+  constexpr double kKibi = 1024.0;
+  if (value < kKibi * kKibi) return fmt::format("{:.1f} KiB ({:.0f} bytes)", value / kKibi, value);
+  return fmt::format("{:.1f} MiB ({:.0f} bytes)", value / (kKibi * kKibi), value);
 }
 
-// The program as if its first extent were chosen as the assertion says.
-dsl::Program at_extent(dsl::Program program, const Assertion& assertion) {
-  if (program.extents.empty()) return program;
-  dsl::Extent& extent = program.extents[dsl::ExtentId{0}];
-  for (size_t axis = 0; axis < 3; ++axis)
-    if (assertion.extent[axis]) extent.initial[axis] = *assertion.extent[axis];
-  return program;
+std::string distance(const Finding& finding, const Assertion& assertion) {
+  const double by = finding.value - assertion.value;
+  const std::string budget = finding.bytes ? amount(assertion.value, true) : fmt::format("{:g}", assertion.value);
+  if (by == 0) return fmt::format(", just the budget of {}", budget);
+  const std::string size = finding.bytes ? amount(by < 0 ? -by : by, true) : fmt::format("{:g}", by < 0 ? -by : by);
+  return fmt::format(", {} {} the budget of {}", size, by > 0 ? "over" : "under", budget);
 }
 
-double memory_bytes(const dsl::Program& program, dsl::GraphId graph, const std::vector<FramePlan>& plans, const PlanOptions& options,
-                    const Assertion& assertion) {
-  if (!assertion.extent[0]) return worst(plans, [](const FramePlan& plan) { return plan.heap_bytes; });
-  const dsl::Program resized = at_extent(program, assertion);
-  return worst(plans, [&](const FramePlan& plan) { return plan_frame(resized, graph, plan.configuration, options).heap_bytes; });
-}
-
-std::string bytes_text(double bytes) { return fmt::format("{:.1f} MiB ({:.0f} bytes)", bytes / (1024.0 * 1024.0), bytes); }
-
-// Position of a pass among the plan's steps, counting barrier groups: {step, groups before it}.
-struct Place {
-  size_t step = 0, groups_before = 0;
-};
-std::optional<Place> find_pass(const PlanData& plan, const std::string& name) {
-  Place place;
-  for (; place.step < plan.steps.size(); ++place.step) {
-    const Step& step = plan.steps[place.step];
-    if (step.kind == StepKind::barriers)
-      ++place.groups_before;
-    else if (plan.passes[step.index].name == name)
-      return place;
-  }
-  return std::nullopt;
-}
-
-template <class Holds>
-Finding pairwise(const std::vector<FramePlan>& plans, const Assertion& assertion, const char* otherwise, Holds holds) {
-  for (const FramePlan& plan : plans) {
-    const auto a = find_pass(plan.plan, assertion.arguments[0]), b = find_pass(plan.plan, assertion.arguments[1]);
-    if (a && b && !holds(*a, *b)) return {0, otherwise};
-  }
-  return {1, "so"};
-}
-
-const char* const kFacts = "memory, barriers, submits, passes, variants, order, overlaps";
-
-std::optional<Finding> find(const dsl::Program& program, dsl::GraphId graph, const std::vector<FramePlan>& plans, const PlanOptions& options,
-                            const Assertion& assertion) {
-  const auto number = [](double value) { return Finding{value, fmt::format("{:.0f}", value)}; };
-  if (assertion.fact == "memory") {
-    const double bytes = memory_bytes(program, graph, plans, options, assertion);
-    return Finding{bytes, bytes_text(bytes)};
-  }
-  if (assertion.fact == "barriers") return number(worst(plans, [](const FramePlan& plan) { return barrier_count(plan.plan); }));
-  if (assertion.fact == "submits") return number(worst(plans, [](const FramePlan& plan) { return plan.plan.batches.size(); }));
-  if (assertion.fact == "passes") return number(worst(plans, [](const FramePlan& plan) { return plan.plan.passes.size(); }));
-  if (assertion.fact == "variants") return number(static_cast<double>(plans.size()));
-  if (assertion.arguments.size() != 2) return std::nullopt;
-  if (assertion.fact == "order")
-    return pairwise(plans, assertion, "the other way round", [](const Place& a, const Place& b) { return a.step < b.step; });
-  if (assertion.fact == "overlaps")
-    return pairwise(plans, assertion, "separated by a barrier", [](const Place& a, const Place& b) { return a.groups_before == b.groups_before; });
-  return std::nullopt;
+std::string found_text(const Finding& finding, const Assertion& assertion) {
+  std::string text = finding.verdict.empty() ? amount(finding.value, finding.bytes) : finding.verdict;
+  if (!assertion.comparison.empty()) text += distance(finding, assertion);
+  if (!finding.variant.empty()) text += fmt::format(", with `{}`", finding.variant);
+  return text;
 }
 
 bool compare(double value, const std::string& comparison, double limit) {
@@ -99,29 +44,67 @@ bool compare(double value, const std::string& comparison, double limit) {
   return value != 0;  // a fact without a comparison
 }
 
+template <class Rows>
+bool has(const Rows& rows, const std::string& name) {
+  return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name || row.name.starts_with(name + "["); });
+}
+
 // True if every argument names a pass or resource of the graph; reports the first that does not.
 bool names_exist(const dsl::Graph& graph, const Assertion& assertion, dsl::Diagnostics& diagnostics) {
   for (const std::string& name : assertion.arguments) {
-    const auto named = [&](const auto& row) { return row.name == name; };
-    if (std::any_of(graph.passes.begin(), graph.passes.end(), named) || std::any_of(graph.resources.begin(), graph.resources.end(), named)) continue;
+    if (has(graph.passes, name) || has(graph.resources, name)) continue;
     diagnostics.report(DiagnosticKind::AssertionUnknownName, assertion.span, {name, graph.name});
     return false;
   }
   return true;
 }
 
+std::string fact_list() {
+  std::string text;
+  for (const Fact& fact : known_facts()) text += (text.empty() ? "" : ", ") + std::string(fact.name) + fact.arguments;
+  return text;
+}
+
+const Fact* find_fact(const Assertion& assertion, dsl::Diagnostics& diagnostics) {
+  const auto& facts = known_facts();
+  const auto fact = std::find_if(facts.begin(), facts.end(), [&](const Fact& each) { return assertion.fact == each.name; });
+  if (fact == facts.end()) {
+    dsl::Diagnostic& error = diagnostics.report(DiagnosticKind::AssertionUnknownFact, assertion.span, {assertion.fact, fact_list()});
+    std::vector<std::string_view> names;
+    for (const Fact& known : facts) names.push_back(known.name);
+    const std::string guess = dsl::closest(assertion.fact, names);
+    if (!guess.empty()) error.note(DiagnosticKind::DidYouMean, assertion.span, {guess});
+    return nullptr;
+  }
+  const bool counts = assertion.arguments.size() >= fact->least && assertion.arguments.size() <= fact->most;
+  if (counts && fact->compares != assertion.comparison.empty()) return &*fact;
+  const std::string shape = std::string(fact->name) + fact->arguments + (fact->compares ? " <= N" : "");
+  diagnostics.report(DiagnosticKind::AssertionShape, assertion.span, {assertion.fact, shape});
+  return nullptr;
+}
+
+void report(const Assertion& assertion, const Finding& finding, dsl::Diagnostics& diagnostics) {
+  dsl::Diagnostic& failed = diagnostics.report(assertion.is_error ? DiagnosticKind::AssertionFails : DiagnosticKind::AssertionWarns, assertion.span,
+                                               {assertion.text, found_text(finding, assertion)});
+  for (const Contributor& each : finding.contributors) {
+    const dsl::Span span = each.span.file.valid() ? each.span : assertion.span;
+    failed.note(DiagnosticKind::AssertionContributor, span, {each.name, each.share});
+  }
+}
+
 }  // namespace
 
 void judge(const dsl::Program& program, dsl::GraphId graph, const std::vector<FramePlan>& plans, const PlanOptions& options,
            dsl::Diagnostics& diagnostics) {
-  for (const Assertion& assertion : program.graphs[graph].assertions) {
-    if (!names_exist(program.graphs[graph], assertion, diagnostics)) continue;
-    const std::optional<Finding> found = find(program, graph, plans, options, assertion);
-    if (!found)
-      diagnostics.report(DiagnosticKind::AssertionUnknownFact, assertion.span, {assertion.fact, kFacts});
-    else if (!compare(found->value, assertion.comparison, assertion.value))
-      diagnostics.report(assertion.is_error ? DiagnosticKind::AssertionFails : DiagnosticKind::AssertionWarns, assertion.span,
-                         {assertion.text, found->text});
+  const auto& assertions = program.graphs[graph].assertions;
+  if (assertions.empty()) return;
+  std::vector<PlanFigures> figures;
+  for (const FramePlan& plan : plans) figures.push_back(find_figures(plan.plan));
+  for (const Assertion& assertion : assertions) {
+    const Fact* fact = find_fact(assertion, diagnostics);
+    if (!fact || !names_exist(program.graphs[graph], assertion, diagnostics)) continue;
+    const Finding finding = fact->find({program, graph, plans, figures, options, assertion});
+    if (!compare(finding.value, assertion.comparison, assertion.value)) report(assertion, finding, diagnostics);
   }
 }
 

@@ -36,6 +36,33 @@ struct Figures {
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;
 };
 
+// Of one pass and of one resource of a plan: what `assert` judges in the program, engine tests can static_assert.
+//
+//   static_assert(rg::overlap(frame::kPassFigures[frame::pass::shadows], frame::kPassFigures[frame::pass::cull]));
+struct PassFigures {
+  uint32_t position = 0;  // in the serial order of the plan
+  uint32_t group = 0;     // barrier groups on its queue before it
+  uint32_t batch = 0, queue = 0;
+  uint32_t barriers = 0;  // right before it
+  uint64_t before = 0;    // bit i: batch i has finished before its batch begins
+};
+struct ResourceFigures {
+  uint64_t bytes = 0, offset = 0;  // estimated, all copies; the offset only of transients
+  bool transient = false;
+  Index first = kNone, last = kNone;  // positions of its first and last user
+};
+constexpr bool runs_before(const PassFigures& a, const PassFigures& b) { return a.position < b.position; }
+// No barrier separates the two, or they run on different queues and neither waits for the other.
+constexpr bool overlap(const PassFigures& a, const PassFigures& b) {
+  if (a.queue == b.queue) return a.group == b.group;
+  return a.batch < 64 && b.batch < 64 && (a.before >> b.batch & 1) == 0 && (b.before >> a.batch & 1) == 0;
+}
+constexpr bool share_bytes(const ResourceFigures& a, const ResourceFigures& b) {
+  return a.transient && b.transient && a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes;
+}
+// Passes from the first user to the last, both counted.
+constexpr uint32_t lifetime(const ResourceFigures& resource) { return resource.first == kNone ? 0 : resource.last - resource.first + 1; }
+
 // Inside a raster pass: rendering has begun, viewport and scissor cover the target.
 struct RasterRecording : Recording {
   void bind_pipeline(VkPipeline pipeline) const { vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline); }

@@ -1,5 +1,6 @@
 // The typed API of one graph as C++ text.
 #include "compiler/codegen/frame_api.h"
+#include "compiler/plan_figures.h"
 
 namespace rg::compiler {
 namespace {
@@ -48,6 +49,42 @@ void figures(CppWriter& out, const FramePlan& frame) {
   out.line("// Of the plan at its initial extents; static_assert your budgets on them.");
   out.line("inline constexpr rg::Figures kFigures =");
   out.line(text);
+}
+
+Row pass_row(const PassFigures& pass) {
+  Row row;
+  row.number("position", pass.position).number("group", pass.group).number("batch", pass.batch).number("queue", pass.queue);
+  return row.number("barriers", pass.barriers).number("before", pass.before);
+}
+
+Row resource_row(const ResourceFigures& resource) {
+  Row row;
+  row.number("bytes", resource.bytes).number("offset", resource.offset).flag("transient", resource.transient);
+  if (resource.first != kNone) row.number("first", resource.first).number("last", resource.last);
+  return row;
+}
+
+std::string without_break(std::string text) {
+  if (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
+void figure_table(CppWriter& out, const char* type, const char* name, std::vector<Row> rows, const std::vector<std::string>& names) {
+  if (rows.empty()) return;
+  out.line(std::string("inline constexpr ") + type + " " + name + "[] = {");
+  for (size_t i = 0; i < rows.size(); ++i) out.line(without_break(rows[i].comment(names[i]).lines(4)));
+  out.line("};");
+}
+
+// The facts that assertions judge, pass by pass and resource by resource.
+void figure_tables(CppWriter& out, const FrameApi& api, const FramePlan& frame) {
+  const PlanFigures figures = find_figures(frame.plan);
+  std::vector<Row> passes, resources;
+  for (const PassFigures& pass : figures.passes) passes.push_back(pass_row(pass));
+  for (const ResourceFigures& resource : figures.resources) resources.push_back(resource_row(resource));
+  out.line("// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.");
+  figure_table(out, "rg::PassFigures", "kPassFigures", std::move(passes), api.names.passes);
+  figure_table(out, "rg::ResourceFigures", "kResourceFigures", std::move(resources), api.names.resources);
 }
 
 // ---- passes the host records
@@ -210,8 +247,8 @@ void submit(CppWriter& out, const FrameApi& api) {
   if (!api.params.empty()) rows(out, "std::span<const std::byte>", "params", "params", api.params, "rg::bytes_of(", ")");
   if (!api.engine_sets.empty()) rows(out, "VkDescriptorSet", "engine_sets", "engine_sets", api.engine_sets, "", ".value");
   if (!api.updates.empty()) rows(out, "std::span<const std::byte>", "updates", "updates", api.updates, "", "");
-  for (size_t i = 0; i < api.conditions.size(); ++i)
-    out.line("  if (conditions." + api.conditions[i].name + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
+  for (size_t i = 0; i < api.condition_bits.size(); ++i)
+    out.line("  if (conditions." + api.condition_bits[i] + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
   out.line("  return instance_.execute(inputs);");
   out.line("}");
 }
@@ -236,10 +273,11 @@ std::string emit_declarations(const FrameApi& api, const FramePlan& plan) {
   member_struct(out, "Params", "Parameter blocks, copied when the frame is recorded.", api.params, " = {}");
   member_struct(out, "EngineSets", "Descriptor sets the engine owns.", api.engine_sets, "");
   member_struct(out, "Updates", "Bytes that update statements copy.", api.updates, " = {}");
-  member_struct(out, "Conditions", "Latched when the frame is recorded.", api.conditions, " = false");
+  member_struct(out, "Conditions", "Latched when the frame is recorded.", api.conditions, " = {}");
   recorder(out, api);
   out.line("const rg::Plan& plan();").line();
   figures(out, plan);
+  figure_tables(out, api, plan);
   indices(out, "pass", "Indices of Plan::passes.", api.names.passes);
   indices(out, "resource", "Indices of Plan::resources.", api.names.resources);
   frame_class(out, api);

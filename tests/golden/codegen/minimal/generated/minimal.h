@@ -29,6 +29,15 @@ inline constexpr rg::Figures kFigures =
     {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
+// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
+inline constexpr rg::PassFigures kPassFigures[] = {
+    {.group = 1, .barriers = 1},  // make_waves
+    {.position = 1, .group = 2, .barriers = 2},  // show
+};
+inline constexpr rg::ResourceFigures kResourceFigures[] = {
+    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 1},  // waves
+};
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index make_waves = 0;

@@ -89,7 +89,7 @@ struct Updates {
 
 // Latched when the frame is recorded.
 struct Conditions {
-  bool cached = false;
+  bool cached = {};
 };
 
 // ---- passes the host records: what a recorder's methods are given
@@ -115,6 +115,28 @@ inline constexpr rg::Figures kFigures =
     {.passes = 9, .shaders = 7, .pipelines = 6, .barrier_groups = 8, .image_barriers = 12, .buffer_barriers = 4, .batches = 1, .heap_bytes = 65792,
      .unaliased_bytes = 131328, .lower_bound_bytes = 65792};
 
+// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
+inline constexpr rg::PassFigures kPassFigures[] = {
+    {.group = 1, .barriers = 1},  // fill_table
+    {.position = 1, .group = 1},  // count_clear
+    {.position = 2, .group = 2, .barriers = 3},  // meshes
+    {.position = 3, .group = 3, .barriers = 3},  // own_pipelines
+    {.position = 4, .group = 3},  // count
+    {.position = 5, .group = 4, .barriers = 3},  // bloom_first
+    {.position = 6, .group = 5, .barriers = 1},  // bloom_down_1
+    {.position = 7, .group = 6, .barriers = 1},  // bloom_down_2
+    {.position = 8, .group = 7, .barriers = 2},  // show
+};
+inline constexpr rg::ResourceFigures kResourceFigures[] = {
+    {.bytes = 256, .first = 2, .last = 2},  // scene_lights
+    {.bytes = 256, .first = 2, .last = 2},  // scene_vertices
+    {.bytes = 65536, .first = 8, .last = 8},  // backbuffer
+    {.bytes = 65536, .transient = true, .first = 2, .last = 4},  // depth
+    {.bytes = 131072, .first = 2, .last = 8},  // color
+    {.bytes = 65536, .transient = true, .first = 5, .last = 8},  // bloom
+    {.bytes = 256, .offset = 65536, .transient = true, .last = 2},  // table
+    {.bytes = 256, .first = 1, .last = 4},  // counted
+};
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill_table = 0;

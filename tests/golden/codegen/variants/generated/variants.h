@@ -29,6 +29,15 @@ inline constexpr rg::Figures kFigures =
     {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
+// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
+inline constexpr rg::PassFigures kPassFigures[] = {
+    {.group = 1, .barriers = 1},  // fill
+    {.position = 1, .group = 2, .barriers = 2},  // show
+};
+inline constexpr rg::ResourceFigures kResourceFigures[] = {
+    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 1},  // base
+};
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
@@ -80,6 +89,16 @@ inline constexpr rg::Figures kFigures =
     {.passes = 3, .shaders = 4, .pipelines = 3, .barrier_groups = 4, .image_barriers = 5, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
+// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
+inline constexpr rg::PassFigures kPassFigures[] = {
+    {.group = 1, .barriers = 1},  // fill
+    {.position = 1, .group = 2, .barriers = 1},  // glow
+    {.position = 2, .group = 3, .barriers = 2},  // show
+};
+inline constexpr rg::ResourceFigures kResourceFigures[] = {
+    {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 2},  // base
+};
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
@@ -132,6 +151,15 @@ inline constexpr rg::Figures kFigures =
     {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
+// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
+inline constexpr rg::PassFigures kPassFigures[] = {
+    {.group = 1, .barriers = 1},  // fill
+    {.position = 1, .group = 2, .barriers = 2},  // show
+};
+inline constexpr rg::ResourceFigures kResourceFigures[] = {
+    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 1},  // base
+};
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
