@@ -5,6 +5,7 @@
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
 #include "compiler/judge.h"
+#include "compiler/profiles.h"
 
 namespace rg::compiler {
 namespace {
@@ -25,10 +26,11 @@ void tell(const CompileOptions& options, const std::string& what) {
   if (options.progress) options.progress(what);
 }
 
-std::vector<std::string> paths_read(const std::string& root_path, const CompileResult& result) {
+std::vector<std::string> paths_read(const std::string& root_path, const CompileResult& result, const std::vector<std::string>& profiles) {
   std::vector<std::string> paths;
   for (const dsl::SourceFile& source : result.sources)
     if (source.path.ends_with(".rg")) paths.push_back(source.path);
+  for (const std::string& path : profiles) paths.push_back(in_folder_of(root_path, path));
   for (const CompiledGraph& graph : result.graphs)
     for (const std::string& path : graph.shaders.read_files) paths.push_back(in_folder_of(root_path, path));
   return paths;
@@ -69,12 +71,15 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   result.sources = std::move(front.files);
   if (diagnostics.has_errors()) return result;
   result.program = std::move(front.program);
+  std::vector<std::string> profiles;
+  for (const dsl::Profile& profile : result.program.profiles) profiles.push_back(profile.name);
+  result.program = read_profiles(std::move(result.program), shader_reader(root_path, read), diagnostics);
   if (options.until == Until::program) return result;
 
   // Shaders behind their generated interfaces; what they really touch completes the declared accesses.
   for (size_t g = 0; g < result.program.graphs.size(); ++g)
     result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, result, diagnostics));
-  result.read_files = paths_read(root_path, result);
+  result.read_files = paths_read(root_path, result, profiles);
 
   // Which plans have to exist.
   std::vector<std::vector<Configuration>> configurations;
@@ -84,7 +89,10 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // The gate: later phases cannot fail on user input; what they find is judged at the end.
   if (diagnostics.has_errors()) return result;
   for (const CompiledGraph& graph : result.graphs) result.program = resolve_stages(std::move(result.program), graph.graph, graph.shaders);
-  if (options.until == Until::shaders) return result;
+
+  // What the graphs ask of devices, beside what the target profiles promise.
+  for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, diagnostics);
+  if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
   // Program to plans, one a configuration.
   for (size_t g = 0; g < result.graphs.size(); ++g) result.graphs[g].plans = plan_all(result.program, result.graphs[g], configurations[g], options);
