@@ -21,7 +21,7 @@ struct BuildOptions {
 };
 struct CheckOptions {
   std::vector<std::string> files;
-  bool json = false;
+  bool json = false, sarif = false, fix = false;
   compiler::CompileOptions compile;
 };
 struct FmtOptions {

@@ -80,7 +80,9 @@ void add_build(CLI::App& app, Run& run) {
 void add_check(CLI::App& app, Run& run) {
   Subcommand<CheckOptions> command(app, run, "check", "diagnostics only: text, names, types, shaders, assertions", check);
   command->add_option("FILE", command.options->files, "root .rg files, each with its imports")->required();
-  command->add_flag("--json", command.options->json, "diagnostics as JSON on stdout");
+  auto* json = command->add_flag("--json", command.options->json, "diagnostics as JSON on stdout");
+  command->add_flag("--sarif", command.options->sarif, "diagnostics as SARIF 2.1.0 on stdout, for code hosts")->excludes(json);
+  command->add_flag("--fix", command.options->fix, "apply the fixes that are certain, then check again");
   add_plan_options(*command.command, command.options->compile);
 }
 
@@ -100,8 +102,8 @@ void add_verify(CLI::App& app, Run& run) {
 void add_explain(CLI::App& app, Run& run) {
   Subcommand<ExplainOptions> command(app, run, "explain", "why a pass, resource or barrier is as it is; what a diagnostic code means", explain);
   command->add_option("FILE|CODE", command.options->file_or_code, "the root .rg file, or a code such as RG0301");
-  command->add_option("NAME", command.options->name, "a pass or resource; `bloom_down` also means bloom_down[0] and its siblings");
-  command->add_flag("--codes", command.options->codes, "list all diagnostic codes");
+  command->add_option("NAME", command.options->name, "a pass, resource or struct; `bloom_down` also means bloom_down[0] and its siblings");
+  command->add_flag("--list,--codes", command.options->codes, "list all diagnostic codes");
   add_plan_options(*command.command, command.options->compile);
 }
 

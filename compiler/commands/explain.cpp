@@ -1,3 +1,5 @@
+#include "compiler/commands/explain.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,48 +11,6 @@ namespace rg::commands {
 namespace {
 
 using dsl::DiagnosticKind;
-
-// ---- diagnostic codes ------------------------------------------------------------------------------------------------
-
-constexpr const char* kSeverities[] = {"error", "warning", "note"};
-
-std::string code_line(DiagnosticKind kind) {
-  const dsl::DiagnosticRow& info = dsl::row(kind);
-  return fmt::format("{} {} {}: {}\n", info.code, kSeverities[static_cast<size_t>(info.severity)], info.name, info.message);
-}
-
-// What the ranges of codes are about.
-std::string_view family(std::string_view code) {
-  constexpr std::string_view families[] = {"Files and imports: what was named cannot be read, or files import each other in a circle.",
-                                           "Text: characters and grammar.",
-                                           "Names and types: something is unknown, declared twice or of the wrong kind.",
-                                           "Meaning: what passes do to resources cannot be right in the order written.",
-                                           "Shaders: a shader does not compile, or does something else than its pass declares.",
-                                           "Judged facts: an assertion or a limit does not hold for the plan.",
-                                           "The command line and the world around it."};
-  const size_t index = static_cast<size_t>(code[3] - '0');
-  return code[2] == '0' && index < std::size(families) ? families[index] : std::string_view();
-}
-
-int explain_code(const std::string& code) {
-  for (const DiagnosticKind kind : dsl::all_diagnostic_kinds()) {
-    if (dsl::row(kind).code != code) continue;
-    print(code_line(kind) + "\n" + std::string(family(code)) + "\n{0}, {1} stand for what was found. docs/diagnostics.md lists all codes.\n");
-    return exit_done;
-  }
-  dsl::Diagnostics diagnostics;
-  diagnostics.report(DiagnosticKind::UnknownCode, {}, {code});
-  return finish(diagnostics, {});
-}
-
-int list_codes() {
-  for (const DiagnosticKind kind : dsl::all_diagnostic_kinds()) print(code_line(kind));
-  return exit_done;
-}
-
-bool is_code(const std::string& text) {
-  return text.size() == 6 && text.starts_with("RG") && std::all_of(text.begin() + 2, text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
 
 // ---- things of a program -----------------------------------------------------------------------------------------------
 
@@ -104,6 +64,7 @@ std::string used_by(const dsl::Graph& graph, const std::string& name) {
 
 std::vector<std::string> all_names(const dsl::Program& program) {
   std::vector<std::string> all;
+  for (const dsl::Struct& record : program.structs) all.push_back(record.name);
   for (const dsl::Graph& graph : program.graphs) {
     for (const dsl::Pass& pass : graph.passes) all.push_back(pass.name);
     for (const dsl::Resource& resource : graph.resources) all.push_back(resource.name);
@@ -123,7 +84,7 @@ int explain_name(const ExplainOptions& options) {
   compile.until = compiler::Until::plans;
   const auto result = compile_or_report(options.file_or_code, compile);
   if (!result) return exit_input_wrong;
-  std::string text;
+  std::string text = explain_struct(result->program, result->sources, options.name);
   for (const compiler::CompiledGraph& compiled : result->graphs) {
     const dsl::Graph& graph = result->program.graphs[compiled.graph];
     text += declared(*result, graph, options.name) + used_by(graph, options.name);
@@ -146,7 +107,7 @@ int explain(const ExplainOptions& options) {
   if (options.codes) return list_codes();
   if (options.name.empty() && is_code(options.file_or_code)) return explain_code(options.file_or_code);
   if (!options.name.empty()) return explain_name(options);
-  fmt::print(stderr, "explain: a file and a name, or a code, or --codes is required\nRun with --help for more information.\n");
+  fmt::print(stderr, "explain: a file and a name, or a code, or --list is required\nRun with --help for more information.\n");
   return exit_call_wrong;
 }
 

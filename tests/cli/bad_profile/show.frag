@@ -1,0 +1,1 @@
+void main() { backbuffer = vec4(1.0); }
