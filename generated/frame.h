@@ -520,7 +520,7 @@ inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 230400, .offset = 18284544, .transient = true, .first = 34, .last = 44},  // tile_lights
     {.bytes = 230400, .offset = 18514944, .transient = true, .first = 34, .last = 44},  // forward_lights
     {.bytes = 242944, .offset = 18745344, .transient = true, .first = 35, .last = 44},  // tile_records
-    {.bytes = 3840, .offset = 19021056, .transient = true, .first = 35, .last = 44},  // tile_features
+    {.bytes = 3840, .first = 35, .last = 44},  // tile_features
     {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 44},  // albedo
     {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 44},  // normal
     {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 44},  // material
