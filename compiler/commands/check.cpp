@@ -79,6 +79,7 @@ int check(const CheckOptions& options) {
   compile.progress = show_progress;
   dsl::Diagnostics all;
   dsl::SourceFiles sources;
+  read_profile(compile, all);
   for (const std::string& path : options.files) {
     if (options.fix) fix_file(path, compile, all);
     const Checked checked = check_file(path, compile);
