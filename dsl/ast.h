@@ -139,6 +139,17 @@ struct ConditionDeclaration {
   Name name;
   Boxed<Expr> count;  // `condition cache_miss[8]`
 };
+struct SpectrumDeclaration {
+  struct Member {
+    Name name;
+    std::vector<Name> needs;
+  };
+  Name name;
+  std::vector<Member> members;
+  Boxed<Expr> modes;
+  std::string_view profile;
+  Span profile_span;
+};
 struct EngineSetDeclaration {
   Name name;
   int64_t set = 0;
@@ -238,8 +249,17 @@ struct WordStatement {  // state NAME, bind NAME, after PASS, keep
   Boxed<Expr> value;
   Span span;
 };
-using Statement =
-    std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
+struct FeaturesStatement {  // features fog, shading
+  std::vector<Name> names;
+  Span span;
+};
+struct SpectrumStatement {  // spectrum light_features by tile_features
+  Name spectrum;
+  Expr masks;
+  Span span;
+};
+using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement,
+                               WordStatement, FeaturesStatement, SpectrumStatement>;
 
 struct PassDeclaration {
   Name name;
@@ -307,7 +327,7 @@ struct GraphDeclaration {  // or, as `technique`, a piece of one
 };
 
 using Declaration = std::variant<Constant, ExtentDeclaration, StructDeclaration, InterfaceDeclaration, SamplerDeclaration, StateDeclaration,
-                                 FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration>;
+                                 FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration, SpectrumDeclaration>;
 struct File {
   FileId file;
   Name module;
