@@ -2,20 +2,17 @@
 
 #include <algorithm>
 
-#include "dsl/features.h"
+#include "compiler/variant_space.h"
 
 namespace rg::compiler {
 namespace {
 
-constexpr uint32_t kFree = dsl::kFreeFeature;
-
-std::vector<bool> used_features(const dsl::Program& program, const dsl::Graph& graph) {
+// Features that some shader of the graph sees.
+std::vector<bool> features_of_shaders(const dsl::Program& program, const dsl::Graph& graph) {
   std::vector<bool> used(program.features.size(), false);
-  const auto mark = [&](const dsl::Guard& guard) {
-    for (const dsl::Guard::Term& term : guard.terms) used[term.feature.value] = true;
-  };
-  for (const dsl::Resource& resource : graph.resources) mark(resource.guard);
-  for (const dsl::Pass& pass : graph.passes) mark(pass.guard);
+  for (const dsl::Pass& pass : graph.passes)
+    for (const dsl::ShaderFeature& feature : pass.features)
+      if (feature.feature.valid()) used[feature.feature.value] = true;
   return used;
 }
 
@@ -34,9 +31,9 @@ bool fix(const dsl::Program& program, const std::string& text, Configuration& fi
   return false;
 }
 
-// For each feature the value it is fixed to, or kFree.
+// For each feature the value it is fixed to, or kFreeFeature.
 Configuration decided(const dsl::Program& program, const std::vector<std::string>& fixed, dsl::Diagnostics& diagnostics) {
-  Configuration values(program.features.size(), kFree);
+  Configuration values(program.features.size(), kFreeFeature);
   for (const std::string& text : fixed)
     if (!fix(program, text, values)) diagnostics.report(dsl::DiagnosticKind::UnknownFeatureValue, {}, {text});
   return values;
@@ -58,12 +55,17 @@ std::vector<Configuration> expand_configurations(const dsl::Program& program, ds
                                                  dsl::Diagnostics& diagnostics) {
   constexpr uint64_t kBudget = 1 << 18;  // steps of the search
   const Configuration values = decided(program, fixed, diagnostics);
-  std::vector<bool> open = used_features(program, program.graphs[graph]);
-  for (size_t f = 0; f < open.size(); ++f) open[f] = open[f] && values[f] == kFree;
+  std::vector<bool> open = features_of_plans(program, program.graphs[graph]);
+  std::vector<bool> selecting = features_of_shaders(program, program.graphs[graph]);
+  for (size_t f = 0; f < open.size(); ++f) selecting[f] = selecting[f] && !open[f] && values[f] == kFreeFeature;
+  for (size_t f = 0; f < open.size(); ++f) open[f] = open[f] && values[f] == kFreeFeature;
   std::vector<Configuration> all;
   size_t total = 0;
   const bool counted = dsl::each_configuration(program.features, values, open, kBudget, [&](const Configuration& configuration) {
-    if (++total <= limit) all.push_back(configuration);
+    if (++total > limit) return true;
+    all.push_back(configuration);
+    for (size_t f = 0; f < selecting.size(); ++f)
+      if (selecting[f]) all.back()[f] = kFreeFeature;
     return true;
   });
   const dsl::Graph& row = program.graphs[graph];
@@ -79,6 +81,7 @@ std::string configuration_name(const dsl::Program& program, const Configuration&
   std::string name;
   for (size_t f = 0; f < configuration.size(); ++f) {
     const dsl::Feature& feature = program.features.rows[f];
+    if (configuration[f] == kFreeFeature) continue;
     name += (name.empty() ? "" : " ") + feature.name + "=" + feature.values[configuration[f]];
   }
   return name;
