@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include "bench/graphs.h"
 #include "bench/rows.h"
 #include "compiler/plan_frame.h"
@@ -34,6 +36,37 @@ std::vector<std::pair<std::string, double>> phase_medians(const std::vector<comp
   return medians;
 }
 
+// Time, heap and calls with another effort of the search; `max` is what a release build pays once, so it is measured on request only.
+void add_effort(Rows& rows, const BenchGraph& graph, const char* name, compiler::Effort effort, int runs) {
+  const std::string prefix = std::string("planner/") + graph.reference->graph + "/" + name + "/";
+  const compiler::PlanOptions options = {.effort = effort};
+  std::vector<compiler::FramePlan> plans;
+  const double total = median_ms(runs, [&] { plans.push_back(compiler::plan_frame(graph.program, dsl::GraphId{0}, {}, options)); });
+  const compiler::FramePlan& plan = plans.back();
+  rows.push_back({prefix + "plan", total, "ms", {}, ""});
+  rows.push_back({prefix + "heap", (static_cast<double>(plan.heap_bytes) + persistent_bytes(plan.plan)) / kMB, "MB", graph.reference->heap_mb, ""});
+  rows.push_back({prefix + "barrier_calls", barrier_calls(plan.plan), "count", graph.reference->barrier_calls, ""});
+}
+
+// Orders for one queue that no other beats in calls and memory, and what a second queue is worth.
+void add_choices(Rows& rows, const BenchGraph& graph, const compiler::FramePlan& one) {
+  const std::string prefix = std::string("planner/") + graph.reference->graph + "/";
+  for (const auto& point : one.order.frontier)
+    rows.push_back(
+        {prefix + "frontier/" + std::to_string(point.groups), (static_cast<double>(point.bytes) + persistent_bytes(one.plan)) / kMB, "MB", {}, ""});
+  rows.push_back({prefix + "ordered_pairs", static_cast<double>(one.order.ordered_pairs), "count", static_cast<double>(one.order.needed_pairs),
+                  "pairs the program needs"});
+  const compiler::PlanOptions options = {.queues = {dsl::QueueKind::graphics, dsl::QueueKind::compute}};
+  const compiler::FramePlan two = compiler::plan_frame(graph.program, dsl::GraphId{0}, {}, options);
+  const compiler::Overlap& o = two.overlap;
+  rows.push_back({prefix + "two_queues/modelled", o.end / 1e3, "us", o.bound / 1e3, "no plan can be faster"});
+  rows.push_back({prefix + "two_queues/one_queue", o.serial / 1e3, "us", {}, ""});
+  rows.push_back({prefix + "two_queues/gained", o.serial > o.bound ? 100 * (o.serial - o.end) / (o.serial - o.bound) : 100, "%", {}, ""});
+  rows.push_back({prefix + "two_queues/batches", static_cast<double>(two.plan.batches.size()), "count", {}, ""});
+  rows.push_back({prefix + "two_queues/waits", static_cast<double>(two.plan.waits.size()), "count", {}, ""});
+  rows.push_back({prefix + "two_queues/heap", (static_cast<double>(two.heap_bytes) + persistent_bytes(two.plan)) / kMB, "MB", {}, ""});
+}
+
 Rows rows_of(const BenchGraph& graph, const std::string& graphs) {
   const Reference& reference = *graph.reference;
   const std::string prefix = std::string("planner/") + reference.graph + "/";
@@ -56,6 +89,9 @@ Rows rows_of(const BenchGraph& graph, const std::string& graphs) {
   rows.push_back({prefix + "barriers",
                   static_cast<double>(plan.plan.memory_barriers.size() + plan.plan.image_barriers.size() + plan.plan.buffer_barriers.size()), "count",
                   reference.barriers, ""});
+  add_choices(rows, graph, plan);
+  add_effort(rows, graph, "fast", compiler::Effort::fast, runs);
+  if (std::getenv("RGC_LONG") && graph.text.size() < 1'000'000) add_effort(rows, graph, "max", compiler::Effort::max, 1);
   return rows;
 }
 

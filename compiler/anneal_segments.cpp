@@ -33,8 +33,8 @@ class Annealer {
       weights_.push_back(static_cast<double>(problem.items[i].bytes));
       for (uint32_t s = intervals_[i].begin; s <= intervals_[i].end; ++s) live_[s] += weights_[i];
     }
-    scale_ = std::max(1.0, *std::max_element(live_.begin(), live_.end()));
-    best_ = segments_, best_peak_ = scale_;
+    best_ = segments_, best_peak_ = std::max(1.0, *std::max_element(live_.begin(), live_.end()));
+    inverse_ = 1 / best_peak_;
   }
 
   Segments run(uint64_t evaluations) {
@@ -50,13 +50,13 @@ class Annealer {
  private:
   // Weighs segments near the peak; ^8 keeps slopes elsewhere, so that a full segment's neighbours empty too.
   double energy(double live) const {
-    const double x = live / scale_, x2 = x * x, x4 = x2 * x2;
+    const double x = live * inverse_, x2 = x * x, x4 = x2 * x2;
     return x4 * x4;
   }
   void rescale() {
     const double peak = *std::max_element(live_.begin(), live_.end());
     if (peak < best_peak_) best_peak_ = peak, best_ = segments_;
-    scale_ = std::max(1.0, best_peak_);
+    inverse_ = 1 / std::max(1.0, best_peak_);
     find_hot_nodes(0.9 * peak);
   }
   // Those whose moves can lower a segment near the peak.
@@ -170,7 +170,7 @@ class Annealer {
   std::vector<Touched> touched_;
   std::vector<uint32_t> hot_;
   uint64_t mark_ = 0;
-  double scale_ = 1, heat_ = 0, best_peak_ = 0;
+  double inverse_ = 1, heat_ = 0, best_peak_ = 0;
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "compiler/check_queues.h"
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
 #include "compiler/judge.h"
@@ -43,11 +44,13 @@ CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::Rea
 }
 
 std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph& graph, const std::vector<Configuration>& configurations,
-                                const CompileOptions& options) {
+                                const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  PlanOptions plan_options = options.plan;
+  if (!options.profile.empty()) plan_options.measured_us = measured_times(program, graph.graph, options.profile, options.profile_text, diagnostics);
   std::vector<FramePlan> plans;
   for (const Configuration& configuration : configurations) {
     tell(options, "plan of " + program.graphs[graph.graph].name + " " + configuration_name(program, configuration));
-    FramePlan plan = plan_frame(program, graph.graph, configuration, options.plan);
+    FramePlan plan = plan_frame(program, graph.graph, configuration, plan_options);
     plan.plan.variant = static_cast<uint32_t>(plans.size());
     plan.plan.variant_count = static_cast<uint32_t>(configurations.size());
     plan.plan.variant_name = intern(configuration_name(program, configuration));
@@ -86,8 +89,13 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   for (const CompiledGraph& graph : result.graphs) result.program = resolve_stages(std::move(result.program), graph.graph, graph.shaders);
   if (options.until == Until::shaders) return result;
 
+  // Queues that passes insist on.
+  for (size_t g = 0; g < result.graphs.size(); ++g) check_queues(result.program, result.graphs[g].graph, configurations[g], diagnostics);
+  if (diagnostics.has_errors()) return result;
+
   // Program to plans, one a configuration.
-  for (size_t g = 0; g < result.graphs.size(); ++g) result.graphs[g].plans = plan_all(result.program, result.graphs[g], configurations[g], options);
+  for (size_t g = 0; g < result.graphs.size(); ++g)
+    result.graphs[g].plans = plan_all(result.program, result.graphs[g], configurations[g], options, diagnostics);
 
   // What the program asserts about its plans.
   for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);

@@ -19,7 +19,7 @@ enum class Until : uint8_t { program, shaders, plans, files };
 struct CompileOptions {
   Until until = Until::files;
   PlanOptions plan;
-  std::string profile;  // a file of measured times, see compiler/pass_cost.h; empty: none
+  std::string profile, profile_text;               // a file of measured times, see compiler/pass_cost.h, and what is in it; empty: none
   std::vector<std::string> fixed_features;         // `-D fog=off`: static features, each "NAME=VALUE"
   size_t max_plans = 64;                           // feature configurations of one graph
   std::string command;                             // as it shall stand in the banner of generated files

@@ -146,9 +146,9 @@ class Dropper {
   // Users that a round trip brings behind the barrier need not be in its second scope, as long as that leads to the trip.
   void drop_reached() {
     for (uint32_t g = 0; g < groups_.size(); ++g) {
-      std::erase_if(*groups_[g], [&](const CellBarrier& b) { return b.within_frame && is_replaced(b); });
+      std::erase_if(*groups_[g], [&](const CellBarrier& b) { return b.within_frame && !reaches_host(b) && is_replaced(b); });
       for (CellBarrier& b : *groups_[g])
-        if (b.within_frame && !b.targets.empty()) drop_reached(b, g);
+        if (b.within_frame && !b.targets.empty() && !reaches_host(b)) drop_reached(b, g);
     }
     for (uint32_t g = 0; g < groups_.size(); ++g) chains_.refresh(g);
   }
@@ -168,6 +168,7 @@ class Dropper {
       }
     b.dst_accesses &= open;
   }
+  static bool reaches_host(const CellBarrier& b) { return (b.dst_stages & stage::host) != 0; }
   // Round trips alone bring every user behind every source.
   bool is_replaced(const CellBarrier& b) const {
     if (b.old_layout != b.new_layout || b.src_queue != b.dst_queue || b.foreign || b.targets.empty() || b.sources.empty()) return false;
@@ -200,7 +201,8 @@ class Dropper {
   // execution alone counts; a transition needs its sources within its own first scope, which only earlier groups lead to.
   std::vector<Claim> claims_without(const CellBarrier& b, uint32_t group, Stages src) const {
     std::vector<Claim> claims;
-    const bool transition = b.old_layout != b.new_layout;
+    // So does what becomes visible of writes that a round trip made available.
+    const bool transition = b.old_layout != b.new_layout || (!trips_.empty() && b.dst_accesses != 0);
     for (const Event& event : b.sources) {
       const uint32_t first = first_after(event);
       for (Stages rest = event.stages; rest; rest &= rest - 1) {

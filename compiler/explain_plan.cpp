@@ -7,50 +7,127 @@
 namespace rg::compiler {
 namespace {
 
-// For each pass, the dependency that keeps it from an earlier segment.
-std::vector<const Dependency*> binding_dependencies(const Graph& graph, const Schedule& schedule) {
-  std::vector<const Dependency*> binding(schedule.segment_of.size(), nullptr);
+// How far a pass could move: groups between which its dependencies leave it free, and what binds it at either end.
+struct Slack {
+  uint32_t first = 0, last = UINT32_MAX;
+  const Dependency *before = nullptr, *after = nullptr;
+};
+
+std::vector<Slack> find_slack(const Graph& graph, const Schedule& schedule) {
+  std::vector<Slack> all(schedule.segment_of.size());
   for (const Dependency& d : graph.dependencies) {
-    const bool adjacent = schedule.segment_of[d.before] + 1 == schedule.segment_of[d.after];
-    if (adjacent && d.kind != DependencyKind::order && !binding[d.after]) binding[d.after] = &d;
+    const uint32_t gap = d.kind != DependencyKind::order, earlier = schedule.segment_of[d.before], later = schedule.segment_of[d.after];
+    Slack &to = all[d.after], &from = all[d.before];
+    if (!to.before || earlier + gap > to.first) to.first = earlier + gap, to.before = &d;
+    if (!from.after || later - gap < from.last) from.last = later - gap, from.after = &d;
   }
-  return binding;
+  return all;
+}
+
+std::string cell_name(const Frame& frame, const Dependency& d) {
+  return d.cell == UINT32_MAX ? "`after`" : "`" + frame.resource_of(d.cell).name + "`";
+}
+
+std::string bound_text(const Frame& frame, const Dependency& d, uint32_t other) {
+  return fmt::format("{} on {} with `{}`", name(d.kind), cell_name(frame, d), frame.pass(other).name);
+}
+
+// Where it stands, why not elsewhere, what would let it move.
+std::string place_text(const PlanParts& parts, uint32_t pass, const Slack& slack) {
+  const Schedule& schedule = parts.schedule;
+  const uint32_t here = schedule.segment_of[pass], last = std::min(slack.last, schedule.segments - 1);
+  std::string text = fmt::format("after group {}", here);
+  if (slack.before && slack.first == here)
+    text += fmt::format(", as early as it can: {} just before; without that access it could run earlier",
+                        bound_text(parts.frame, *slack.before, slack.before->before));
+  else
+    text += fmt::format(", though group {} would do; here memory peaks lower or fewer groups are needed", slack.first);
+  if (slack.after && last == here)
+    text += fmt::format("; not later: {}", bound_text(parts.frame, *slack.after, slack.after->after));
+  else
+    text += fmt::format("; group {} would do as well", last);
+  return text;
 }
 
 void explain_passes(const PlanParts& parts, const Graph& graph, Decisions& out) {
   const Frame& frame = parts.frame;
-  const auto binding = binding_dependencies(graph, parts.schedule);
+  const std::vector<Slack> slack = find_slack(graph, parts.schedule);
   out.push_back({"schedule", "chosen", parts.schedule.chosen_because});
   for (uint32_t pass = 0; pass < frame.passes.size(); ++pass) {
     const std::string& name = frame.pass(pass).name;
-    out.push_back({name, parts.liveness.live[pass] ? "kept" : "culled", parts.liveness.reasons[pass]});
-    if (!parts.liveness.live[pass]) continue;
-    const std::string where = fmt::format("after group {}", parts.schedule.segment_of[pass]);
-    if (const Dependency* d = binding[pass])
-      out.push_back({name, "scheduled",
-                     fmt::format("{}: {} on `{}` with `{}` just before", where, rg::compiler::name(d->kind), frame.resource_of(d->cell).name,
-                                 frame.pass(d->before).name)});
-    else
-      out.push_back({name, "scheduled", where + ": nothing just before it binds it; chosen for memory"});
+    const bool live = parts.liveness.live[pass];
+    out.push_back({name, live ? "kept" : "culled", parts.liveness.reasons[pass] + (live ? "" : "; `keep` would make it run")});
+    if (live) out.push_back({name, "scheduled", place_text(parts, pass, slack[pass])});
   }
+}
+
+// Who had the bytes of a transient before it, and who gets them.
+std::string neighbours_text(const PlanData& plan, const std::vector<alias::GroupInterval>& intervals, Index r) {
+  const Resource& row = plan.resources[r];
+  Index before = kNone, after = kNone;
+  for (Index other = 0; other < plan.resources.size(); ++other) {
+    const Resource& o = plan.resources[other];
+    if (other == r || o.lifetime != Lifetime::transient || !intervals[other].used()) continue;
+    if (o.estimated_offset >= row.estimated_offset + row.estimated_bytes || row.estimated_offset >= o.estimated_offset + o.estimated_bytes) continue;
+    if (intervals[other].end < intervals[r].begin && (before == kNone || intervals[other].end > intervals[before].end)) before = other;
+    if (intervals[other].begin > intervals[r].end && (after == kNone || intervals[other].begin < intervals[after].begin)) after = other;
+  }
+  if (before == kNone && after == kNone) return "; nobody else uses these bytes";
+  std::string text;
+  if (before != kNone) text += fmt::format("; takes bytes over from `{}`", plan.resources[before].name);
+  if (after != kNone) text += fmt::format("; hands bytes on to `{}`", plan.resources[after].name);
+  return text + fmt::format("; with `no alias` it would keep its {} bytes to itself", row.estimated_bytes);
 }
 
 void explain_memory(const PlanData& plan, Decisions& out) {
+  constexpr size_t kMostCompared = 2000;  // transients, each with all others
   const std::vector<alias::GroupInterval> intervals = alias::group_intervals(plan.view());
   for (Index r = 0; r < plan.resources.size(); ++r) {
     const Resource& resource = plan.resources[r];
+    if (resource.concurrent)
+      out.push_back({std::string(resource.name), "shared", "several queues use it at a time, or keep it over frames; so it has no owner"});
     if (resource.lifetime != Lifetime::transient || !intervals[r].used()) continue;
-    out.push_back({std::string(resource.name), "placed",
-                   fmt::format("at {} with {} bytes, live between groups {} and {}", resource.estimated_offset, resource.estimated_bytes,
-                               intervals[r].begin, intervals[r].end + 1)});
+    std::string text = fmt::format("at {} with {} bytes, live between groups {} and {}", resource.estimated_offset, resource.estimated_bytes,
+                                   intervals[r].begin, intervals[r].end + 1);
+    if (resource.no_alias)
+      text += "; its bytes are its own, because it says `no alias`, aliasing is off, or several queues use it first";
+    else if (plan.acquires.size() <= kMostCompared)
+      text += neighbours_text(plan, intervals, r);
+    out.push_back({std::string(resource.name), "placed", std::move(text)});
   }
 }
 
+// What would make a barrier unnecessary.
+std::string remedy(const CellBarrier& b) {
+  if (b.src_queue != b.dst_queue) return "; on one queue it would not change hands";
+  if (b.is_acquire) return "; a transition every frame: only a `persistent` or `history` image keeps its layout";
+  if (b.reason == "layout") return "; `layout general` on the resource would spare it, at the price of slower reads";
+  if (b.reason.starts_with("read after write")) return "; gone if the reader did without, or read in the pass that writes";
+  if (b.reason.starts_with("write after read")) return "; gone if the writer used a resource of its own";
+  return "";
+}
+
 void explain_barriers(const PlanParts& parts, Decisions& out) {
-  for (size_t g = 0; g < parts.sync.groups.size(); ++g)
-    for (const CellBarrier& b : parts.sync.groups[g])
-      out.push_back({fmt::format("group {}", g), "barrier",
-                     fmt::format("`{}`: {}{}", parts.frame.resource_of(b.cell).name, b.reason, b.wraps ? ", against the frame before" : "")});
+  const std::vector<Index> groups = groups_of_slots(parts);
+  for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
+    for (const CellBarrier& b : parts.sync.groups[slot]) {
+      const std::string reason = b.reason + (b.wraps ? ", against the frame before" : "");
+      const std::string& resource = parts.frame.resource_of(b.cell).name;
+      out.push_back({fmt::format("group {}", groups[slot]), "barrier", fmt::format("`{}`: {}{}", resource, reason, remedy(b))});
+      out.push_back({resource, "barrier", fmt::format("in group {}: {}{}", groups[slot], reason, remedy(b))});
+    }
+}
+
+// Subjects "wait 0", "wait 1", ... as in the plan's table of waits.
+void explain_waits(const PlanParts& parts, const PlanData& plan, Decisions& out) {
+  for (const Batch& batch : plan.batches)
+    for (Index w = batch.first_wait; w < batch.first_wait + batch.wait_count; ++w) {
+      const BatchWait& wait = parts.sync.batches[static_cast<size_t>(&batch - plan.batches.data())].waits[w - batch.first_wait];
+      const char* from = wait.batch == kNone ? "what it did in the frame before" : "a batch of this frame";
+      out.push_back({fmt::format("wait {}", w), "wait",
+                     fmt::format("queue {} waits for queue {}, {}: `{}` is used on both; gone if its users ran on one queue (`--keep-home`)",
+                                 batch.queue, wait.queue, from, parts.frame.resource_of(wait.cell).name)});
+    }
 }
 
 }  // namespace
@@ -60,6 +137,7 @@ Decisions explain_plan(const PlanParts& parts, const Graph& graph, const PlanDat
   explain_passes(parts, graph, decisions);
   explain_memory(plan, decisions);
   explain_barriers(parts, decisions);
+  explain_waits(parts, plan, decisions);
   return decisions;
 }
 

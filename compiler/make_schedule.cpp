@@ -62,7 +62,12 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   const Numbering numbering = number(live);
   const SegmentProblem problem{static_cast<uint32_t>(numbering.pass_of.size()), edges_of(graph, numbering), items_of(frame, numbering)};
   const Segments program_order = program_order_segments(problem);
-  Segments segments = !options.merge ? one_each(problem.nodes) : options.reorder ? search_segments(problem) : program_order;
+  SegmentResult found{program_order, {}, 0, "program order"};
+  if (!options.merge)
+    found.best = one_each(problem.nodes);
+  else if (options.reorder && options.prefer != Prefer::order)
+    found = search_segments(problem, options.effort, options.prefer);
+  const Segments& segments = found.best;
 
   Schedule schedule;
   schedule.segment_of.assign(live.size(), UINT32_MAX);
@@ -74,6 +79,7 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   schedule.segments = cost.segments;
   schedule.queue_of.assign(cost.segments, 0), schedule.batch_of.assign(cost.segments, 0);
   schedule.peak_bytes = cost.peak;
+  schedule.frontier = found.frontier, schedule.evaluations = found.evaluations, schedule.method = found.method;
   schedule.chosen_because = std::to_string(cost.segments) + " groups and " + std::to_string(cost.peak) + " bytes; program order has " +
                             std::to_string(before.segments) + " groups and " + std::to_string(before.peak) + " bytes";
   return schedule;

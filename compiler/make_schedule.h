@@ -12,6 +12,7 @@
 
 #include "compiler/build_graph.h"
 #include "compiler/frame.h"
+#include "compiler/segment_search.h"
 
 namespace rg::compiler {
 
@@ -30,6 +31,9 @@ struct Schedule {
   uint32_t batches = 1;
   uint64_t peak_bytes = 0;  // live transient bytes in the serial order
   std::string chosen_because;
+  std::vector<SegmentCost> frontier;  // orders for one queue that were tried and not beaten in both costs
+  uint64_t evaluations = 0;
+  const char* method = "";
 
   uint32_t slots() const { return segments + batches; }
   uint32_t slot_before(uint32_t segment) const { return segment + batch_of[segment]; }

@@ -11,7 +11,7 @@ Plan PlanData::view() const {
   p.exprs = exprs, p.extents = extents, p.resources = resources;
   p.queues = queues, p.batches = batches, p.steps = steps, p.waits = waits, p.signals = signals;
   p.groups = groups, p.memory_barriers = memory_barriers, p.image_barriers = image_barriers, p.buffer_barriers = buffer_barriers;
-  p.entry = entry, p.exit = exit, p.acquires = acquires, p.releases = releases, p.alias_pairs = alias_pairs, p.alias_by_lifetime = alias_by_lifetime;
+  p.entry = entry, p.exit = exit, p.acquires = acquires, p.releases = releases;
   p.alias_clocks = alias_clocks;
   p.passes = passes, p.accesses = accesses, p.renderings = renderings, p.attachments = attachments;
   p.shaders = shaders, p.pipelines = pipelines, p.pipeline_shaders = pipeline_shaders, p.blends = blends;

@@ -32,8 +32,6 @@ struct PlanData {
   std::vector<Boundary> entry, exit;
   std::vector<Acquire> acquires;
   std::vector<Release> releases;
-  std::vector<AliasPair> alias_pairs;
-  bool alias_by_lifetime = false;
   std::vector<Index> alias_clocks;
   std::vector<Pass> passes;
   std::vector<Access> accesses;

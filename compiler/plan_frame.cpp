@@ -1,6 +1,7 @@
 #include "compiler/plan_frame.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "compiler/alias_clocks.h"
@@ -52,6 +53,52 @@ Overlap overlap_of(const QueuePlan& plan, const Schedule& one_queue, const std::
   for (size_t node = 0; node < plan.queue_of.size(); ++node) overlap.work[plan.queue_of[node]] += costs[one_queue.order[node]];
   for (const uint32_t queue : plan.queue_of) overlap.moved += queue != 0;
   return overlap;
+}
+
+// Pairs of which one comes before the other over `edges`, which are sorted by their later node; a node stands for `size` of them. O(edges * nodes /
+// 64).
+uint64_t weigh_pairs(size_t nodes, const std::vector<std::pair<uint32_t, uint32_t>>& edges, const std::vector<uint64_t>& size) {
+  const size_t words = (nodes + 63) / 64;
+  std::vector<uint64_t> before(nodes * words);
+  for (const auto& [from, to] : edges) {
+    for (size_t w = 0; w < words; ++w) before[to * words + w] |= before[from * words + w];
+    before[to * words + from / 64] |= uint64_t{1} << (from % 64);
+  }
+  uint64_t pairs = 0;
+  for (size_t node = 0; node < nodes; ++node)
+    for (size_t w = 0; w < words; ++w)
+      for (uint64_t word = before[node * words + w]; word; word &= word - 1)
+        pairs += size[node] * size[w * 64 + static_cast<size_t>(std::countr_zero(word))];
+  return pairs;
+}
+
+OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& one_queue, const Schedule& schedule, const SyncPlan& sync) {
+  OrderFacts facts{one_queue.method, one_queue.evaluations, {}, 0, 0};
+  for (const SegmentCost& cost : one_queue.frontier) facts.frontier.push_back({cost.segments, cost.peak});
+  const size_t nodes = schedule.order.size();
+  std::vector<uint32_t> node_of(frame.passes.size());
+  for (uint32_t node = 0; node < nodes; ++node) node_of[schedule.order[node]] = node;
+  std::vector<std::pair<uint32_t, uint32_t>> needed;
+  for (const Dependency& d : graph.dependencies)
+    if (d.kind != DependencyKind::order) needed.emplace_back(node_of[d.before], node_of[d.after]);
+  std::sort(needed.begin(), needed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  facts.needed_pairs = weigh_pairs(nodes, needed, std::vector<uint64_t>(nodes, 1));
+  // On the GPU: segments of a queue one after the other, batches after those they wait for.
+  std::vector<std::pair<uint32_t, uint32_t>> steps;
+  for (uint32_t s = 0; s < schedule.segments; ++s) {
+    for (uint32_t t = s; t-- > 0;)
+      if (schedule.queue_of[t] == schedule.queue_of[s]) {
+        steps.emplace_back(t, s);
+        break;
+      }
+    if (s > 0 && schedule.batch_of[s - 1] == schedule.batch_of[s]) continue;
+    for (const BatchWait& wait : sync.batches[schedule.batch_of[s]].waits)
+      if (wait.batch != kNone) steps.emplace_back(schedule.closing_slot(wait.batch) - wait.batch - 1, s);
+  }
+  std::vector<uint64_t> size(schedule.segments);
+  for (const uint32_t pass : schedule.order) ++size[schedule.segment_of[pass]];
+  facts.ordered_pairs = weigh_pairs(schedule.segments, steps, size);
+  return facts;
 }
 
 // Without queues that nothing runs on; the first stays.
@@ -121,12 +168,12 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   const MemoryPlan memory = watch.time("plan_memory", [&] {
     find_alias_clocks(result.plan);
     const MemoryPlan placed = place_transients(result.plan);
-    list_alias_pairs(result.plan);
     return placed;
   });
 
   result.decisions = watch.time("explain", [&] { return explain_plan(parts, graph, result.plan); });
   result.overlap = queues.overlap;
+  result.order = order_facts(frame, graph, one_queue, schedule, sync);
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());
   result.heap_bytes = memory.heap_bytes, result.unaliased_bytes = memory.unaliased_bytes, result.lower_bound_bytes = memory.lower_bound_bytes;
   result.phase_ms = std::move(watch.phases);

@@ -49,12 +49,26 @@ struct Overlap {
   std::vector<double> work;  // by queue of the plan
 };
 
+// How the order was found, and what it is worth.
+struct OrderFacts {
+  std::string method;  // "program order", "list scheduling", "annealing"
+  uint64_t evaluations = 0;
+  struct Point {
+    uint32_t groups = 0;
+    uint64_t bytes = 0;
+    friend bool operator==(const Point&, const Point&) = default;
+  };
+  std::vector<Point> frontier;                   // orders on one queue that were tried and not beaten in both
+  uint64_t ordered_pairs = 0, needed_pairs = 0;  // of passes: one comes after the other on the GPU; the program needs that
+};
+
 struct FramePlan {
   Configuration configuration;
   PlanData plan;  // without pipelines, bindings and shaders: see codegen/bind.h
   Decisions decisions;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
   Overlap overlap;
+  OrderFacts order;
   std::vector<std::pair<std::string, double>> phase_ms;
 };
 

@@ -49,15 +49,4 @@ MemoryPlan place_transients(PlanData& plan) {
   return memory;
 }
 
-void list_alias_pairs(PlanData& plan) {
-  plan.alias_by_lifetime = plan.queues.size() == 1 && plan.acquires.size() > kMostListed;
-  if (plan.alias_by_lifetime || plan.queues.size() > 1) return;
-  const Plan view = plan.view();
-  const alias::Sharing sharing(view);
-  for (const Acquire& after : plan.acquires)
-    for (const Acquire& before : plan.acquires)
-      if (sharing.may_share(before.resource, after.resource))
-        plan.alias_pairs.push_back({before.resource, after.resource, !sharing.may_follow(before.resource, after.resource, false)});
-}
-
 }  // namespace rg::compiler

@@ -16,8 +16,4 @@ struct MemoryPlan {
 // Fills Resource::estimated_offset of transients and Plan::estimated_heap_bytes. Pre-condition: find_alias_clocks().
 MemoryPlan place_transients(PlanData& plan);
 
-// Pairs that may share, for readers that want a list on one queue; none and `alias_by_lifetime` where there are more than kMostListed transients.
-inline constexpr size_t kMostListed = 512;
-void list_alias_pairs(PlanData& plan);
-
 }  // namespace rg::compiler

@@ -223,7 +223,8 @@ Side on_queue(const Frame& frame, uint32_t cell, const Side& side, uint32_t queu
 CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cell, const Side& from, const Side& to) {
   const bool image = is_image(frame, cell);
   CellBarrier b;
-  b.within_frame = frame.resource_of(cell).lifetime == dsl::Lifetime::transient;
+  const dsl::Lifetime lifetime = frame.resource_of(cell).lifetime;
+  b.within_frame = lifetime == dsl::Lifetime::transient || lifetime == dsl::Lifetime::readback;
   b.cell = cell, b.range = frame.cells[cell].range, b.begin = frame.cells[cell].begin, b.end = frame.cells[cell].end;
   // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
   const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;

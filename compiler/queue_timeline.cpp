@@ -151,7 +151,10 @@ class Chooser {
     for (const uint32_t node : members) queue_of[node] = home_[node];
     const double without = end_of(queue_of);
     double own = problem_.wait;
-    for (const uint32_t node : members) choice_.worth[node] = without - end, own += 0.1 * problem_.nodes[node].cost;
+    for (const uint32_t node : members) {
+      if (choice_.queue_of[node] != home_[node]) choice_.worth[node] = without - end;
+      own += 0.1 * problem_.nodes[node].cost;
+    }
     if (without - end >= own) return false;
     choice_.queue_of = std::move(queue_of);
     end = without;

@@ -56,14 +56,17 @@ class Reducer {
   }
 
   void add_waits(uint32_t batch, const std::vector<const Need*>& needs) {
+    std::vector<uint32_t> cell(queues_);
     std::vector<uint32_t> wanted(queues_);  // how many batches of each queue must have completed
     for (const Need* need : needs)
-      if (need->from_batch != kNone) wanted[need->from_queue] = std::max(wanted[need->from_queue], index_[need->from_batch] + 1);
+      if (need->from_batch != kNone && index_[need->from_batch] + 1 > wanted[need->from_queue])
+        wanted[need->from_queue] = index_[need->from_batch] + 1, cell[need->from_queue] = need->cell;
     for (uint32_t queue = 0; queue < queues_; ++queue)
-      if (wanted[queue] > known_[batch][queue] && !implied_by_another(wanted, queue)) wait(batch, queue, batch_at(queue, wanted[queue] - 1));
+      if (wanted[queue] > known_[batch][queue] && !implied_by_another(wanted, queue))
+        wait(batch, queue, batch_at(queue, wanted[queue] - 1), cell[queue]);
     for (const Need* need : needs) {
       if (need->from_batch != kNone || knows_before_[batch][need->from_queue]) continue;
-      sync_[batch].waits.push_back({need->from_queue, kNone, 0});
+      sync_[batch].waits.push_back({need->from_queue, kNone, 0, need->cell});
       knows_before_[batch][need->from_queue] = true;
     }
   }
@@ -75,9 +78,9 @@ class Reducer {
   }
 
   // Whoever waits for a batch of this frame has waited for all that its queue did before.
-  void wait(uint32_t batch, uint32_t queue, uint32_t from) {
+  void wait(uint32_t batch, uint32_t queue, uint32_t from, uint32_t cell) {
     RG_CHECK(from < batch, "batches are listed in a legal serial order");
-    sync_[batch].waits.push_back({queue, from, 0});
+    sync_[batch].waits.push_back({queue, from, 0, cell});
     for (uint32_t q = 0; q < queues_; ++q) {
       known_[batch][q] = std::max(known_[batch][q], known_[from][q]);
       knows_before_[batch][q] = knows_before_[batch][q] || knows_before_[from][q];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compiler/segment_graph.h"
 
@@ -56,9 +57,17 @@ SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments) {
   return cost;
 }
 
-double score(const SegmentCost& cost) {
-  const double bytes = static_cast<double>(std::max<uint64_t>(cost.peak, 1));
-  return static_cast<double>(cost.segments) * bytes * std::sqrt(bytes);
+double score(const SegmentCost& cost, Prefer prefer) {
+  const double bytes = static_cast<double>(cost.peak + (uint64_t{1} << 20)), segments = cost.segments;
+  switch (prefer) {
+    case Prefer::memory:
+      return segments * bytes * bytes * bytes * bytes;
+    case Prefer::barriers:
+    case Prefer::time:
+      return segments * segments * segments * segments * bytes;
+    default:
+      return segments * bytes * std::sqrt(bytes);
+  }
 }
 
 Segments program_order_segments(const SegmentProblem& problem) {
@@ -99,82 +108,115 @@ Segments spread_segments(const SegmentProblem& problem, uint32_t count) {
   return segments;
 }
 
-Segments compact_segments(const SegmentProblem& problem, const Segments& segments) {
+Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit) {
   const uint32_t count = count_of(segments);
   std::vector<std::vector<uint32_t>> nodes(count);
   for (uint32_t node = 0; node < problem.nodes; ++node) nodes[segments[node]].push_back(node);
+  std::vector<uint64_t> live(count), begins(count);
+  for (const auto& item : problem.items) {
+    const SegmentInterval interval = interval_of(item, segments);
+    begins[interval.begin] += item.bytes;
+    for (uint32_t s = interval.begin; s <= interval.end; ++s) live[s] += item.bytes;
+  }
   const SegmentLinks before = predecessors(problem);
   Segments result(problem.nodes);
   uint32_t current = 0;
-  for (const auto& segment : nodes) {
-    for (const uint32_t node : segment)
-      for (const auto& link : before.of(node))
-        if (link.gap == 1 && result[link.node] == current) {
-          current = current + 1;
-          break;
-        }
-    for (const uint32_t node : segment) result[node] = current;
+  uint64_t joined = 0;  // bytes live in the current one
+  for (uint32_t s = 0; s < count; ++s) {
+    bool cut = joined + begins[s] > limit && s > 0;
+    for (const uint32_t node : nodes[s])
+      for (const auto& link : before.of(node)) cut = cut || (link.gap == 1 && result[link.node] == current);
+    current += cut;
+    joined = cut || s == 0 ? live[s] : joined + begins[s];
+    for (const uint32_t node : nodes[s]) result[node] = current;
   }
   return result;
 }
 
 namespace {
 
-// Numbers of segments worth a search: the least, and up to 6 % or 8 more, never more than program order takes.
-std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t program) {
-  const uint32_t most = std::max(least, std::min(program, std::max(least + 8, least + least * 6 / 100)));
+// Numbers of segments worth a search: the least, and up to a quarter more.
+std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Prefer prefer) {
+  const uint32_t most =
+      std::min(nodes, prefer == Prefer::barriers ? least + 1 : least + std::max(4u, nodes <= 400 ? least * 25 / 100 : least * 6 / 100));
   std::vector<uint32_t> counts;
-  for (uint32_t i = 0; i <= 4; ++i) counts.push_back(least + (most - least) * i / 4);
-  for (uint32_t near = least; near <= std::min(most, least + 2); ++near) counts.push_back(near);
+  for (uint32_t i = 0; i <= 5; ++i) counts.push_back(least + (most - least) * i / 5);
+  if (nodes <= 60) counts.push_back(std::min(most, least + 2));
   std::sort(counts.begin(), counts.end());
   counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
   return counts;
 }
 
-// Moves in all: enough for small graphs to search from several seeds, and few enough for 10,000 nodes to take about a second.
-uint64_t total_evaluations(uint64_t nodes) {
-  if (nodes <= 400) return std::min<uint64_t>(1600 * nodes, 160'000);
-  return nodes <= 1000 ? 400 * nodes : 400'000 + 60 * (nodes - 1000);
+// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; a hundred times as many for the last effort.
+uint64_t total_evaluations(uint64_t nodes, Effort effort) {
+  const uint64_t moves = nodes <= 1000 ? 300 * nodes : 300'000 + 60 * (nodes - 1000);
+  return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 30) : moves;
 }
 
 // The best so far, and what is found for each number of segments.
 struct Search {
   const SegmentProblem& problem;
-  Segments best;
+  Prefer prefer;
+  SegmentResult result;
 
   double consider(const Segments& candidate) {
-    Segments compact = compact_segments(problem, candidate);
-    const double found = score(cost_of(problem, compact));
-    if (found < score(cost_of(problem, best))) best = std::move(compact);
+    double found = std::numeric_limits<double>::max();
+    for (const uint64_t limit : {cost_of(problem, candidate).peak, UINT64_MAX}) {
+      Segments compact = compact_segments(problem, candidate, limit);
+      const SegmentCost cost = cost_of(problem, compact);
+      note(cost);
+      found = std::min(found, score(cost, prefer));
+      if (score(cost, prefer) < score(cost_of(problem, result.best), prefer)) result.best = std::move(compact);
+    }
     return found;
+  }
+
+  // Keeps those that no other beats in both.
+  void note(const SegmentCost& cost) {
+    auto& all = result.frontier;
+    const auto beats = [](const SegmentCost& a, const SegmentCost& b) { return a.segments <= b.segments && a.peak <= b.peak; };
+    if (std::any_of(all.begin(), all.end(), [&](const SegmentCost& other) { return beats(other, cost); })) return;
+    std::erase_if(all, [&](const SegmentCost& other) { return beats(cost, other); });
+    all.insert(std::lower_bound(all.begin(), all.end(), cost, [](const SegmentCost& a, const SegmentCost& b) { return a.segments < b.segments; }),
+               cost);
+  }
+
+  void anneal(const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed, std::vector<std::pair<double, uint32_t>>* ranking) {
+    result.evaluations += evaluations;
+    const double found = consider(anneal_segments(problem, start, count, evaluations, seed));
+    if (ranking) ranking->emplace_back(found, count);
   }
 };
 
 }  // namespace
 
-Segments search_segments(const SegmentProblem& problem) {
-  Search search{problem, program_order_segments(problem)};
-  if (problem.nodes < 2) return search.best;
+SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer) {
+  Search search{problem, prefer, {program_order_segments(problem), {}, 0, "program order"}};
+  search.consider(search.result.best);
+  if (problem.nodes < 2) return std::move(search.result);
   const Segments earliest = earliest_segments(problem);
-  const std::vector<uint32_t> counts = counts_to_try(count_of(earliest), count_of(search.best));
+  const uint32_t least = count_of(earliest);
+  search.result.method = "list scheduling";
   search.consider(earliest);
+  const std::vector<uint32_t> counts = counts_to_try(least, problem.nodes, prefer);
+  for (const uint32_t count : counts) {
+    if (effort == Effort::fast && count != counts.front() && count != counts.back()) continue;
+    search.consider(latest_segments(problem, count));
+    search.consider(spread_segments(problem, count));
+  }
+  if (effort == Effort::fast) return std::move(search.result);
 
   // Half of the effort on every number of segments, the other half on the most promising.
-  const uint64_t half = total_evaluations(problem.nodes) / 2;
+  search.result.method = "annealing";
+  const uint64_t half = total_evaluations(problem.nodes, effort) / 2;
   std::vector<std::pair<double, uint32_t>> ranking;
-  for (const uint32_t count : counts) {
-    const Segments spread = spread_segments(problem, count);
-    search.consider(latest_segments(problem, count));
-    search.consider(spread);
-    ranking.emplace_back(search.consider(anneal_segments(problem, spread, count, half / counts.size(), 1)), count);
-  }
+  for (const uint32_t count : counts) search.anneal(spread_segments(problem, count), count, half / counts.size(), 1, &ranking);
   std::sort(ranking.begin(), ranking.end());
-  ranking.resize(std::min<size_t>(ranking.size(), 3));
-  const uint64_t seeds = std::max<uint64_t>(1, half / (ranking.size() * 100 * problem.nodes));
+  ranking.resize(std::min<size_t>(ranking.size(), effort == Effort::max ? 3 : 2));
+  const uint64_t seeds = std::clamp<uint64_t>(half / (ranking.size() * 100 * problem.nodes), 1, 40);
   for (uint64_t seed = 2; seed < 2 + seeds; ++seed)
-    for (const auto& [found, count] : ranking)
-      search.consider(anneal_segments(problem, spread_segments(problem, count), count, half / (ranking.size() * seeds), seed));
-  return search.best;
+    for (const auto& [found, count] : ranking) search.anneal(spread_segments(problem, count), count, half / (ranking.size() * seeds), seed, nullptr);
+  return std::move(search.result);
 }
 
 }  // namespace rg::compiler

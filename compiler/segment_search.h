@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "compiler/plan_frame.h"
+
 namespace rg::compiler {
 
 struct SegmentProblem {
@@ -34,8 +36,9 @@ struct SegmentCost {
   uint64_t peak = 0;
 };
 SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments);
-// Less is better: segments * bytes ^ 1.5. A product needs no unit; bytes weigh more because a group is cheap as long as it is wide.
-double score(const SegmentCost& cost);
+// Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 1.5: bytes weigh more because a group is cheap as long as it
+// is wide; memory takes the 4th power of bytes, barriers and time that of segments. A MiB is added, so that nothing is done for less.
+double score(const SegmentCost& cost, Prefer prefer);
 
 // Nodes in their order, a new segment wherever one depends on the current.
 Segments program_order_segments(const SegmentProblem& problem);
@@ -50,10 +53,17 @@ Segments spread_segments(const SegmentProblem& problem, uint32_t count);
 // The least peak found from `start` within `evaluations` moves, using at most `count` segments.
 Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed);
 
-// Joins neighbouring segments that no hard edge connects, and numbers them without gaps.
-Segments compact_segments(const SegmentProblem& problem, const Segments& segments);
+// Joins neighbouring segments that no hard edge connects, as long as no more than `limit` bytes live in them together, and numbers them without gaps.
+// A boundary that only memory needs is one of memory changing hands.
+Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit);
 
-// All of the above: program order and the searched ones, the best by score.
-Segments search_segments(const SegmentProblem& problem);
+struct SegmentResult {
+  Segments best;
+  std::vector<SegmentCost> frontier;  // of everything that was tried, by segments: none beats another in both
+  uint64_t evaluations = 0;           // moves of the annealer
+  const char* method = "";            // "program order", "list scheduling" or "annealing"
+};
+// All of the above: program order and the searched ones, the best by score. `fast` tries constructed ones only, `max` anneals much longer.
+SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer);
 
 }  // namespace rg::compiler

@@ -58,6 +58,7 @@ struct CellBoundary {
 struct BatchWait {
   uint32_t queue = 0, batch = kNone;
   Stages stages = 0;
+  uint32_t cell = 0;  // one of those that need it
 };
 struct BatchSync {
   std::vector<BatchWait> waits;

@@ -166,11 +166,6 @@ struct Release {
   Stages stages = 0; Accesses accesses = 0;  // accesses: writes only, not yet made available
   Index queue = 0, point = 0;
 };
-// The bytes of `before` may be given to `after`: every last user of `before` precedes the acquire of `after` on the GPU, this frame, or
-// (`wraps`) the acquire of `after` in the next frame. Pairs not listed must not share bytes. Where Plan::alias_by_lifetime is set the list is empty, because it
-// would grow with the square: then any two transients share that are not `no_alias` and whose lives, counted in groups of the one queue, are disjoint.
-struct AliasPair { Index before = kNone, after = kNone; bool wraps = false; };
-
 // State of a range of a resource at the start and at the end of every frame. Established by the prologue at creation and resize.
 struct Boundary {
   Ref ref = {};
@@ -371,8 +366,6 @@ struct Plan {
   std::span<const Boundary> entry = {}, exit = {};
   std::span<const Acquire> acquires = {};
   std::span<const Release> releases = {};
-  std::span<const AliasPair> alias_pairs = {};
-  bool alias_by_lifetime = false;
   // What has completed before an acquire: alias_clocks[first_clock .. + 2 * queues.size()), for each queue the largest point (see Release) of this
   // frame, then for each queue that of the frame before. kNone: nothing is known.
   std::span<const Index> alias_clocks = {};

@@ -77,10 +77,6 @@ void check_aliases(const Plan& plan, Checker& c) {
     c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
     c.index(plan.releases[i].queue, plan.queues.size(), "release", i, "queue");
   }
-  for (size_t i = 0; i < plan.alias_pairs.size(); ++i) {
-    c.index(plan.alias_pairs[i].before, plan.resources.size(), "alias pair", i, "before");
-    c.index(plan.alias_pairs[i].after, plan.resources.size(), "alias pair", i, "after");
-  }
 }
 
 void check_attachment(const Plan& plan, Index i, Checker& c) {

@@ -114,9 +114,6 @@ void PlanEmitter::boundaries() {
     return row.number("queue", r.queue).number("point", r.point);
   });
   list(out_, "Index", "kAliasClocks", numbers(plan_.alias_clocks));
-  table("AliasPair", "kAliasPairs", plan_.alias_pairs, [&](const AliasPair& p, size_t) {
-    return Row().field("before", resource(p.before)).field("after", resource(p.after)).flag("wraps", p.wraps);
-  });
 }
 
 }  // namespace rg::compiler

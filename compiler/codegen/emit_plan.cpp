@@ -255,7 +255,6 @@ void PlanEmitter::plan() {
   RG_TABLE(exit, kExit);
   RG_TABLE(acquires, kAcquires);
   RG_TABLE(releases, kReleases);
-  RG_TABLE(alias_pairs, kAliasPairs);
   RG_TABLE(alias_clocks, kAliasClocks);
   RG_TABLE(passes, kPasses);
   RG_TABLE(accesses, kAccesses);

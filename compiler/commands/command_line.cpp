@@ -100,7 +100,9 @@ void add_verify(CLI::App& app, Run& run) {
 void add_explain(CLI::App& app, Run& run) {
   Subcommand<ExplainOptions> command(app, run, "explain", "why a pass, resource or barrier is as it is; what a diagnostic code means", explain);
   command->add_option("FILE|CODE", command.options->file_or_code, "the root .rg file, or a code such as RG0301");
-  command->add_option("NAME", command.options->name, "a pass or resource; `bloom_down` also means bloom_down[0] and its siblings");
+  command->add_option(
+      "NAME", command.options->name,
+      "a pass, resource, `group 3`, `wait 0`, `barriers`, `waits` or `schedule`; `bloom_down` also means bloom_down[0] and its siblings");
   command->add_flag("--codes", command.options->codes, "list all diagnostic codes");
   add_plan_options(*command.command, command.options->compile);
 }

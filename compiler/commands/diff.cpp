@@ -58,8 +58,10 @@ std::string text_diff(const std::string& before, const std::string& after) {
 }
 
 std::string facts_text(const Facts& facts) {
-  return fmt::format("passes {}\nculled {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\n", facts.passes_live,
-                     facts.passes_culled, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls, facts.submits, facts.waits);
+  return fmt::format(
+      "passes {}\nculled {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\nqueues {}\nmodelled time {:.1f} us\n",
+      facts.passes_live, facts.passes_culled, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls, facts.submits,
+      facts.waits, facts.queues, facts.overlap.end / 1000);
 }
 
 std::string text_of(const compiler::CompileResult& result) {
@@ -68,7 +70,8 @@ std::string text_of(const compiler::CompileResult& result) {
     for (const compiler::FramePlan& plan : graph.plans) {
       const Facts facts = find_facts(result.program, graph, plan);
       text += fmt::format("graph {} {}\n", facts.graph, facts.variant) + facts_text(facts);
-      for (const Pass& pass : plan.plan.passes) text += fmt::format("pass {}\n", pass.name);
+      for (const Pass& pass : plan.plan.passes)
+        text += fmt::format("pass {}{}\n", pass.name, pass.queue ? fmt::format("  on queue {}", pass.queue) : "");
       text += barriers_text(plan.plan);
     }
   }

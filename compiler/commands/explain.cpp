@@ -56,6 +56,8 @@ bool is_code(const std::string& text) {
 
 // `bloom_down` also names `bloom_down[2]` and `bloom_down.clear`.
 bool names(const std::string& name, std::string_view subject) {
+  if (name == "barriers") return subject.starts_with("group ");
+  if (name == "waits") return subject.starts_with("wait ");
   if (!subject.starts_with(name)) return false;
   return subject.size() == name.size() || subject[name.size()] == '[' || subject[name.size()] == '.';
 }

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "compiler/configurations.h"
+#include "compiler/pass_cost.h"
 
 namespace rg::commands {
 namespace {
@@ -81,6 +83,16 @@ void count_barriers(const PlanData& plan, Facts& facts) {
     if (barrier_count(group)) ++facts.barrier_calls;
   }
   facts.all_commands = count_blunt(plan);
+  const auto add = [&](const auto& barriers) {
+    for (const auto& b : barriers) {
+      facts.barrier_stages += static_cast<size_t>(std::popcount(b.src_stages) + std::popcount(b.dst_stages));
+      facts.barrier_accesses += static_cast<size_t>(std::popcount(b.src_accesses) + std::popcount(b.dst_accesses));
+    }
+  };
+  add(plan.memory_barriers);
+  add(plan.image_barriers);
+  add(plan.buffer_barriers);
+  facts.stall_us = static_cast<double>(facts.barrier_calls) * compiler::kLaunchNs / 1000;
 }
 
 }  // namespace
@@ -142,6 +154,9 @@ Facts find_facts(const dsl::Program& program, const compiler::CompiledGraph& gra
   count_barriers(plan.plan, facts);
   facts.submits = plan.plan.batches.size();
   facts.waits = plan.plan.waits.size();
+  facts.signals = plan.plan.signals.size();
+  facts.queues = plan.plan.queues.size();
+  facts.overlap = plan.overlap, facts.order = plan.order;
   facts.plans = graph.plans.size();
   facts.shaders = graph.shaders.shaders.size();
   facts.phase_ms = plan.phase_ms;
@@ -152,12 +167,36 @@ Facts find_facts(const dsl::Program& program, const compiler::CompiledGraph& gra
 nlohmann::ordered_json to_json(const Facts& facts) {
   nlohmann::ordered_json phases = nlohmann::ordered_json::object();
   for (const auto& [phase, ms] : facts.phase_ms) phases[phase] = ms;
+  nlohmann::ordered_json frontier = nlohmann::ordered_json::array(), work = nlohmann::ordered_json::array();
+  for (const auto& point : facts.order.frontier) frontier.push_back({{"groups", point.groups}, {"bytes", point.bytes}});
+  for (const double ns : facts.overlap.work) work.push_back(ns / 1000);
   return {{"graph", facts.graph},
           {"variant", facts.variant},
           {"passes", {{"live", facts.passes_live}, {"culled", facts.passes_culled}}},
           {"memory", {{"heap_bytes", facts.heap_bytes}, {"unaliased_bytes", facts.unaliased_bytes}, {"lower_bound_bytes", facts.lower_bound_bytes}}},
-          {"barriers", {{"calls", facts.barrier_calls}, {"barriers", facts.barriers}, {"all_commands", facts.all_commands}}},
-          {"queues", {{"submits", facts.submits}, {"waits", facts.waits}}},
+          {"barriers",
+           {{"calls", facts.barrier_calls},
+            {"barriers", facts.barriers},
+            {"all_commands", facts.all_commands},
+            {"stages", facts.barrier_stages},
+            {"accesses", facts.barrier_accesses},
+            {"stall_us", facts.stall_us}}},
+          {"order",
+           {{"method", facts.order.method},
+            {"evaluations", facts.order.evaluations},
+            {"ordered_pairs", facts.order.ordered_pairs},
+            {"needed_pairs", facts.order.needed_pairs},
+            {"frontier", frontier}}},
+          {"queues", {{"count", facts.queues}, {"submits", facts.submits}, {"waits", facts.waits}, {"signals", facts.signals}}},
+          {"overlap",
+           {{"movable", facts.overlap.movable},
+            {"moved", facts.overlap.moved},
+            {"serial_us", facts.overlap.serial / 1000},
+            {"critical_path_us", facts.overlap.critical_path / 1000},
+            {"bound_us", facts.overlap.bound / 1000},
+            {"modelled_us", facts.overlap.end / 1000},
+            {"complete", facts.overlap.complete},
+            {"work_us", work}}},
           {"variants", {{"plans", facts.plans}, {"shaders", facts.shaders}}},
           {"time_ms", {{"plan", facts.plan_ms}, {"phases", phases}}}};
 }

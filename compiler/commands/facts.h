@@ -17,6 +17,11 @@ struct Facts {
   size_t barrier_calls = 0, barriers = 0;                               // vkCmdPipelineBarrier2 with something in it; what they hold together
   size_t all_commands = 0;                                              // barriers naming ALL_COMMANDS, ALL_GRAPHICS, MEMORY_READ or MEMORY_WRITE
   size_t submits = 0, waits = 0;
+  size_t barrier_stages = 0, barrier_accesses = 0;  // bits named by all barriers together
+  size_t signals = 0, queues = 0;
+  compiler::Overlap overlap;
+  compiler::OrderFacts order;
+  double stall_us = 0;            // modelled: the GPU drains once a barrier call
   size_t plans = 0, shaders = 0;  // of the graph: feature configurations, different SPIR-V modules
   double plan_ms = 0;
   std::vector<std::pair<std::string, double>> phase_ms;

@@ -245,10 +245,6 @@ struct PlanJson {
             {"stages", stage_names(row.stages)},
             {"accesses", access_names(row.accesses)}};
   }
-
-  Json alias(const AliasPair& row) const {
-    return {{"before", plan.resources[row.before].name}, {"after", plan.resources[row.after].name}, {"wraps", row.wraps}};
-  }
 };
 
 std::string binary(const PlanData& plan, const Expr& e, const char* format) {
@@ -300,8 +296,6 @@ Json plan_json(const PlanData& plan) {
           {"exit", all(plan.exit, [&](const Boundary& row) { return json.boundary(row); })},
           {"acquires", all(plan.acquires, [&](const Acquire& row) { return json.acquire(row); })},
           {"releases", all(plan.releases, [&](const Release& row) { return json.release(row); })},
-          {"alias_pairs", all(plan.alias_pairs, [&](const AliasPair& row) { return json.alias(row); })},
-          {"alias_by_lifetime", plan.alias_by_lifetime},
           {"culled", all(plan.culled,
                          [](const Culled& row) {
                            return Json{{"pass", row.pass}, {"reason", row.reason}};

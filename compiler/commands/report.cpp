@@ -17,7 +17,15 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
   text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
                       mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
-  text += fmt::format("  queues    {}, {}\n", counted(facts.submits, "submit"), counted(facts.waits, "wait"));
+  text += fmt::format("  order     {}; {} pairs of passes are ordered, {} have to be\n", facts.order.method, facts.order.ordered_pairs,
+                      facts.order.needed_pairs);
+  for (const auto& point : facts.order.frontier) text += fmt::format("              {} groups at {}\n", point.groups, mib(point.bytes));
+  text += fmt::format("  queues    {}: {}, {}\n", facts.queues, counted(facts.submits, "submit"), counted(facts.waits, "wait"));
+  const compiler::Overlap& o = facts.overlap;
+  text += fmt::format("  overlap   {} of {} moved; {:.1f} us modelled, {:.1f} on one queue, no less than {:.1f}: {:.0f} % of what can be gained\n",
+                      counted(o.moved, "pass", "passes"), o.movable, o.end / 1000, o.serial / 1000, o.bound / 1000,
+                      o.serial > o.bound ? 100 * (o.serial - o.end) / (o.serial - o.bound) : 100.0);
+  for (size_t queue = 0; queue < o.work.size(); ++queue) text += fmt::format("              queue {} works {:.1f} us\n", queue, o.work[queue] / 1000);
   text += fmt::format("  variants  {}, {}\n", counted(facts.plans, "plan"), counted(facts.shaders, "shader"));
   text += fmt::format("  planned   in {:.2f} ms\n", facts.plan_ms);
   for (const auto& [phase, ms] : facts.phase_ms) text += fmt::format("              {:<12} {:.2f} ms\n", phase, ms);

@@ -49,8 +49,13 @@ TEST(Facts, CountsWhatAPlanHolds) {
   const nlohmann::ordered_json json = to_json(find_facts(program, graph, graph.plans[0]));
   EXPECT_EQ(json["passes"], (nlohmann::ordered_json{{"live", 3}, {"culled", 1}}));
   EXPECT_EQ(json["memory"], (nlohmann::ordered_json{{"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}}));
-  EXPECT_EQ(json["barriers"], (nlohmann::ordered_json{{"calls", 2}, {"barriers", 3}, {"all_commands", 1}}));
-  EXPECT_EQ(json["queues"], (nlohmann::ordered_json{{"submits", 1}, {"waits", 0}}));
+  EXPECT_EQ(json["barriers"]["calls"], 2);
+  EXPECT_EQ(json["barriers"]["barriers"], 3);
+  EXPECT_EQ(json["barriers"]["all_commands"], 1);
+  EXPECT_EQ(json["barriers"]["stages"], 2);
+  EXPECT_EQ(json["barriers"]["accesses"], 1);
+  EXPECT_EQ(json["queues"]["submits"], 1);
+  EXPECT_EQ(json["queues"]["waits"], 0);
   EXPECT_EQ(json["variants"], (nlohmann::ordered_json{{"plans", 1}, {"shaders", 0}}));
   EXPECT_EQ(json["time_ms"]["plan"], 4.0);
 }

@@ -35,23 +35,23 @@ TEST(SegmentSearch, EveryCandidateIsLegal) {
     EXPECT_TRUE(is_legal(problem, latest_segments(problem, count))) << seed;
     EXPECT_TRUE(is_legal(problem, spread_segments(problem, count))) << seed;
     EXPECT_TRUE(is_legal(problem, anneal_segments(problem, spread_segments(problem, count), count, 2000, seed + 1))) << seed;
-    EXPECT_TRUE(is_legal(problem, compact_segments(problem, latest_segments(problem, count + 5)))) << seed;
+    EXPECT_TRUE(is_legal(problem, compact_segments(problem, latest_segments(problem, count + 5), UINT64_MAX))) << seed;
   }
 }
 
 TEST(SegmentSearch, IsNeverWorseThanProgramOrder) {
   for (uint32_t seed = 0; seed < 12; ++seed) {
     const SegmentProblem problem = random_problem(seed);
-    const Segments found = search_segments(problem);
+    const Segments found = search_segments(problem, Effort::normal, Prefer::balance).best;
     EXPECT_TRUE(is_legal(problem, found)) << seed;
-    EXPECT_LE(score(cost_of(problem, found)), score(cost_of(problem, program_order_segments(problem)))) << seed;
-    EXPECT_EQ(found, search_segments(problem)) << "not deterministic, seed " << seed;
+    EXPECT_LE(score(cost_of(problem, found), Prefer::balance), score(cost_of(problem, program_order_segments(problem)), Prefer::balance)) << seed;
+    EXPECT_EQ(found, search_segments(problem, Effort::normal, Prefer::balance).best) << "not deterministic, seed " << seed;
   }
 }
 
 TEST(SegmentSearch, CompactingJoinsOnlyWhatNothingSeparates) {
   SegmentProblem problem{.nodes = 3, .edges = {{0, 2, true}}, .items = {}};
-  EXPECT_EQ(compact_segments(problem, {0, 4, 9}), (Segments{0, 0, 1}));
+  EXPECT_EQ(compact_segments(problem, {0, 4, 9}, UINT64_MAX), (Segments{0, 0, 1}));
 }
 
 // Two chains written one after the other: interleaved they share their barriers, and the second is small enough not to matter.

@@ -30,7 +30,6 @@ struct TestPlan {
   std::vector<Boundary> entry;
   std::vector<Acquire> acquires;
   std::vector<Release> releases;
-  std::vector<AliasPair> alias_pairs;
   std::vector<Index> alias_clocks;
   std::vector<Pass> passes;
   std::vector<Access> accesses;
@@ -125,7 +124,7 @@ struct TestPlan {
     if (plan.name.empty()) plan.name = "test";
     plan.exprs = exprs, plan.extents = extents, plan.resources = resources, plan.queues = queues, plan.batches = listed, plan.steps = steps;
     plan.groups = groups, plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
-    plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs, plan.alias_clocks = alias_clocks, plan.passes = passes,
+    plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_clocks = alias_clocks, plan.passes = passes,
     plan.accesses = accesses;
     plan.renderings = renderings, plan.attachments = attachments, plan.shaders = shaders, plan.pipelines = pipelines,
     plan.pipeline_shaders = pipeline_shaders;

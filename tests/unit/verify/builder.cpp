@@ -75,7 +75,7 @@ Plan PlanTables::view() const {
   plan.exprs = exprs, plan.resources = resources, plan.queues = queues, plan.batches = batches, plan.steps = steps, plan.groups = groups;
   plan.waits = waits, plan.signals = signals, plan.alias_clocks = alias_clocks;
   plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
-  plan.entry = entry, plan.exit = exit, plan.acquires = acquires, plan.releases = releases, plan.alias_pairs = alias_pairs;
+  plan.entry = entry, plan.exit = exit, plan.acquires = acquires, plan.releases = releases;
   plan.passes = passes, plan.accesses = accesses, plan.renderings = renderings, plan.attachments = attachments, plan.transfers = transfers,
   plan.conditions = conditions;
   return plan;

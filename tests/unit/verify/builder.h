@@ -28,7 +28,6 @@ struct PlanTables {
   std::vector<Boundary> entry, exit;
   std::vector<Acquire> acquires;
   std::vector<Release> releases;
-  std::vector<AliasPair> alias_pairs;
   std::vector<Index> alias_clocks;
   std::vector<Pass> passes;
   std::vector<Access> accesses;
