@@ -172,6 +172,7 @@ class Assigner {
 
   QueuePlan run() {
     find_homes();
+    order_importers();
     group_neighbours();
     QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort);
     const LayoutGuard guard(frame_, one_queue_);
@@ -201,6 +202,27 @@ class Assigner {
       if (why.empty() && pass.queue_may) problem_.nodes[node].away = queue;
       if (why.empty() && !pass.queue_may) problem_.nodes[node].home = queue;
       if (!why.empty()) plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});
+    }
+  }
+
+  // Imported data is there when the first queue starts its frame; others learn of that by waiting for something it has run.
+  void order_importers() {
+    const auto fixed = [](const auto& node) { return node.home == 0 && node.away == UINT32_MAX; };
+    const auto first = static_cast<uint32_t>(std::find_if(problem_.nodes.begin(), problem_.nodes.end(), fixed) - problem_.nodes.begin());
+    for (uint32_t node = 0; node < problem_.nodes.size(); ++node) {
+      const uint32_t pass = one_queue_.order[node];
+      const auto uses = frame_.uses_of(pass);
+      const bool imports =
+          std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return frame_.resource_of(use.cell).lifetime == dsl::Lifetime::imported; });
+      if (!imports || fixed(problem_.nodes[node])) continue;
+      if (node < first) {
+        problem_.nodes[node].away = UINT32_MAX, problem_.nodes[node].home = 0;
+        plan_.decisions.push_back(
+            {pass, false, "stays on the first queue: nothing there runs before it, so nothing tells that imported data is there"});
+        continue;
+      }
+      problem_.edges.push_back({first, node});
+      plan_.extra.emplace_back(one_queue_.order[first], pass);
     }
   }
 

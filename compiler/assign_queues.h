@@ -32,8 +32,9 @@ struct QueuePlan {
   QueueGain gain;  // ns
   uint64_t simulations = 0;
   bool complete = true;
-  std::vector<QueueDecision> decisions;  // of passes that name a queue
-  std::vector<uint32_t> contested;       // images whose layout would change between several queues, which no move avoids: use `general`
+  std::vector<QueueDecision> decisions;              // of passes that name a queue
+  std::vector<std::pair<uint32_t, uint32_t>> extra;  // passes: what reads imported buffers elsewhere runs after the first pass of the engine's queue
+  std::vector<uint32_t> contested;                   // images whose layout would change between several queues, which no move avoids: use `general`
 };
 
 // Why a pass cannot run on the queue it names, in any arrangement; empty: it can. What `queue KIND` without `may` asks for is then wrong.

@@ -42,6 +42,7 @@ class Chains {
   void refresh(uint32_t group) {
     distinct_[group].clear();
     for (const CellBarrier& b : *groups_[group]) {
+      if (b.src_queue != b.dst_queue) continue;  // half a change of owner orders nothing else, and is not even recorded within one family
       const Scopes scopes = scopes_of(b);
       if (std::find(distinct_[group].begin(), distinct_[group].end(), scopes) == distinct_[group].end()) distinct_[group].push_back(scopes);
     }

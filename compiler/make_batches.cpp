@@ -22,7 +22,9 @@ class Cutter {
  public:
   Cutter(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs, bool merge)
       : one_queue_(one_queue), plan_(plan), costs_(costs), merge_(merge), before_(frame.passes.size()), piece_of_(frame.passes.size(), UINT32_MAX) {
+    for (const auto& [before, after] : plan.extra) extra_.push_back({before, after, DependencyKind::order, UINT32_MAX});
     for (const Dependency& d : graph.dependencies) before_[d.after].push_back(&d);
+    for (const Dependency& d : extra_) before_[d.after].push_back(&d);
   }
 
   std::vector<Piece> run(size_t queues) {
@@ -84,6 +86,7 @@ class Cutter {
   const QueuePlan& plan_;
   const std::vector<double>& costs_;
   bool merge_;
+  std::vector<Dependency> extra_;
   std::vector<std::vector<const Dependency*>> before_;
   std::vector<uint32_t> piece_of_, current_, counts_;
   std::vector<std::vector<uint32_t>> known_, now_;  // by piece, by queue: for each queue, how many of its pieces have completed

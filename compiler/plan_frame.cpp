@@ -167,7 +167,7 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   // Memory, estimated; the runtime places again with real sizes, within what the clocks allow.
   const MemoryPlan memory = watch.time("plan_memory", [&] {
     find_alias_clocks(result.plan);
-    const MemoryPlan placed = place_transients(result.plan);
+    const MemoryPlan placed = place_transients(result.plan, options.effort);
     return placed;
   });
 

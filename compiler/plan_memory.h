@@ -1,11 +1,13 @@
 // Where transients lie, estimated at the initial extents.
 //
 // Which of them may share bytes follows from the plan's points and clocks, see runtime/alias.h. On one queue that is the same as lives that do not
-// meet; then the packer works on intervals. On several queues it works on the pairs that must not share, and the bound is that of the serial order.
+// meet; then the packer works on intervals. On several queues it works on the pairs that must not share, and the bound is the greatest weight of
+// transients of which none comes after another.
 #pragma once
 
 #include "compiler/frame.h"
 #include "compiler/plan_data.h"
+#include "compiler/plan_frame.h"
 
 namespace rg::compiler {
 
@@ -14,6 +16,6 @@ struct MemoryPlan {
 };
 
 // Fills Resource::estimated_offset of transients and Plan::estimated_heap_bytes. Pre-condition: find_alias_clocks().
-MemoryPlan place_transients(PlanData& plan);
+MemoryPlan place_transients(PlanData& plan, Effort effort);
 
 }  // namespace rg::compiler

@@ -41,8 +41,9 @@ class Reducer {
     // Needs that leave a choice come after those that leave none, those of the frame before last.
     std::vector<const Need*> order;
     for (const Need& need : needs) order.push_back(&need);
-    const auto key = [](const Need* need) {
-      return std::tuple(need->chains, need->from_batch == kNone, need->any_from, need->chains ? -std::popcount(with_later(need->to_stages)) : 0);
+    const auto key = [&](const Need* need) {
+      return std::tuple(!rests_on_one_wait(*need), need->chains, need->from_batch == kNone, need->any_from,
+                        need->chains ? -std::popcount(with_later(need->to_stages)) : 0);
     };
     std::stable_sort(order.begin(), order.end(), [&](const Need* a, const Need* b) { return key(a) < key(b); });
     for (const Need* need : order) realise(*need);
@@ -109,6 +110,13 @@ class Reducer {
   }
 
   // The frame before ends with a signal of everything, which any later signal of the queue comes after.
+  bool rests_on_one_wait(const Need& need) const {
+    for (uint32_t batch = need.to_batch; batch != kNone; batch = previous_[batch])
+      for (const BatchWait& wait : sync_[batch].waits)
+        if (satisfies(wait, need)) return true;
+    return false;
+  }
+
   // Of the waits that satisfy the need, the one that lacks the fewest stages; among equals the latest.
   BatchWait* cheapest(const Need& need) {
     BatchWait* best = nullptr;
@@ -142,9 +150,12 @@ class Reducer {
   // The middle queue's signal has to come after what its wait lets through.
   void chain(const Need& need, uint32_t over) {
     Need inner = need;
-    inner.to_batch = over, inner.to_stages = sync_[over].signal;
-    if (inner.to_stages == 0) inner.to_stages = sync_[over].signal = need.to_stages;
+    inner.to_batch = over, inner.to_stages = 0;
+    BatchWait* wait = cheapest(inner);
+    if (!wait) return realise(inner);
     realise(inner);
+    Stages& signal = sync_[over].signal;
+    if ((signal & with_later(wait->stages)) == 0) signal |= wait->stages & ~(wait->stages - 1);
   }
 
   size_t queues_;

@@ -58,7 +58,7 @@ SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments) {
 }
 
 double score(const SegmentCost& cost, Prefer prefer) {
-  const double bytes = static_cast<double>(cost.peak + (uint64_t{1} << 20)), segments = cost.segments;
+  const double bytes = static_cast<double>(cost.peak + (uint64_t{65536})), segments = cost.segments;
   switch (prefer) {
     case Prefer::memory:
       return segments * bytes * bytes * bytes * bytes;

@@ -37,7 +37,7 @@ struct SegmentCost {
 };
 SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments);
 // Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 1.5: bytes weigh more because a group is cheap as long as it
-// is wide; memory takes the 4th power of bytes, barriers and time that of segments. A MiB is added, so that nothing is done for less.
+// is wide; memory takes the 4th power of bytes, barriers and time that of segments. 64 KiB are added, so that nothing is done for less.
 double score(const SegmentCost& cost, Prefer prefer);
 
 // Nodes in their order, a new segment wherever one depends on the current.

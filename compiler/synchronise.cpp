@@ -71,7 +71,7 @@ class Synchroniser {
       const uint32_t acquirer = schedule_.queue_of[first_segment_[r]];
       sync_.scattered[r] = sync_.scattered[r] || line.epochs.front().queue != acquirer;
       for (const Epoch& epoch : line.epochs) {
-        if (user[r] == UINT32_MAX) user[r] = epoch.queue;
+        if (user[r] == UINT32_MAX) user[r] = frame_.resource_of(line.cell).lifetime == dsl::Lifetime::imported ? 0 : epoch.queue;
         const bool several = epoch.queue == kSeveralQueues || ((buffer || outlives) && epoch.queue != user[r]);
         sync_.concurrent[r] = sync_.concurrent[r] || several;
       }
@@ -206,6 +206,7 @@ class Synchroniser {
     Line whole = line;
     cover_after(whole, before, after);
     enter(whole, before);
+    tie_to_first_queue(line, before.effect, after);
     const bool defined = connect_within(whole, before.defined, settled(before, whole.epochs.front()) ? &before.effect : nullptr);
     const Epoch& last = whole.epochs.back();
     boundary(sync_.entry, line.cell, before, before.effect.layout, !before.defined);
@@ -215,6 +216,21 @@ class Synchroniser {
     }
     if (!continues_after(last, after)) leave(whole, before, after, defined);
     boundary(sync_.exit, line.cell, {after, after.writes != 0, true, true, {}, false, {}}, after.layout, false);
+  }
+
+  // Readers on other queues than the engine's: they come after the start of its frame, and it ends its frame after them.
+  void tie_to_first_queue(const Line& line, const Effect& before, const Effect& after) {
+    uint32_t first = UINT32_MAX, last = UINT32_MAX;  // batches of queue 0
+    for (uint32_t segment = 0; segment < schedule_.segments; ++segment)
+      if (schedule_.queue_of[segment] == 0) first = std::min(first, schedule_.batch_of[segment]), last = schedule_.batch_of[segment];
+    for (const Epoch& epoch : line.epochs)
+      for (const Event& event : epoch.events) {
+        if (event.queue == 0 || event.stages == 0) continue;
+        const uint32_t batch = schedule_.batch_of[event.segment];
+        if (before.stages() && first < batch) needs_.push_back({0, first, before.stages(), batch, event.stages, line.cell, true, false});
+        if (after.stages() && batch < last && last != UINT32_MAX)
+          needs_.push_back({event.queue, batch, event.stages, last, after.stages(), line.cell, false, true});
+      }
   }
 
   void enter(const Line& line, const Side& before) {
@@ -259,7 +275,7 @@ class Synchroniser {
   static void cover_after(Line& line, const Side& before, const Effect& after) {
     Epoch& last = line.epochs.back();
     const bool has_barrier = line.epochs.size() > 1 || !is_visible(before, last);
-    if (!has_barrier || !continues_after(last, after)) return;
+    if (!has_barrier || last.queue != 0 || !continues_after(last, after)) return;
     merge(last.covered, after);
     last.events.push_back({last.last_segment, 0, last.events.back().pass, after.read_stages, after.reads});
   }
