@@ -191,6 +191,7 @@ struct Search {
 }  // namespace
 
 SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer) {
+  if (effort == Effort::fast && prefer == Prefer::balance) prefer = Prefer::memory;  // constructed orders that save groups spend too much on it
   Search search{problem, prefer, {program_order_segments(problem), {}, 0, "program order"}};
   search.consider(search.result.best);
   if (problem.nodes < 2) return std::move(search.result);

@@ -28,6 +28,7 @@ int check(const CheckOptions& options) {
   compile.progress = show_progress;
   dsl::Diagnostics all;
   dsl::SourceFiles sources;
+  read_profile(compile, all);
   for (const std::string& path : options.files) {
     dsl::Diagnostics diagnostics;
     const compiler::CompileResult result = compiler::compile(path, reader_for(path), compile, diagnostics);

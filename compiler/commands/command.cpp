@@ -42,15 +42,19 @@ int finish(dsl::Diagnostics& diagnostics, const dsl::SourceFiles& sources, bool 
   return diagnostics.has_errors() ? exit_input_wrong : exit_done;
 }
 
+void read_profile(compiler::CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  if (options.profile.empty()) return;
+  std::string why;
+  const std::optional<std::string> text = read_file(options.profile, why);
+  if (!text) diagnostics.report(dsl::DiagnosticKind::ProfileIgnored, {}, {options.profile, why});
+  if (!text) options.profile.clear();
+  options.profile_text = text.value_or("");
+}
+
 std::optional<compiler::CompileResult> compile_or_report(const std::string& path, compiler::CompileOptions options) {
   dsl::Diagnostics diagnostics;
   options.progress = show_progress;
-  if (!options.profile.empty()) {
-    std::string why;
-    const std::optional<std::string> text = read_file(options.profile, why);
-    if (!text) diagnostics.report(dsl::DiagnosticKind::ProfileIgnored, {}, {options.profile, why}), options.profile.clear();
-    options.profile_text = text.value_or("");
-  }
+  read_profile(options, diagnostics);
   compiler::CompileResult result = compiler::compile(path, reader_for(path), options, diagnostics);
   if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {path});
   if (finish(diagnostics, result.sources) != exit_done) return std::nullopt;

@@ -72,6 +72,9 @@ std::vector<std::string> emit_stages();
 // Prints diagnostics to stderr, in colour on a terminal, or as JSON to stdout. exit_input_wrong if any is an error.
 int finish(dsl::Diagnostics& diagnostics, const dsl::SourceFiles& sources, bool json = false);
 
+// Fills CompileOptions::profile_text; warns and forgets the profile where it cannot be read.
+void read_profile(compiler::CompileOptions& options, dsl::Diagnostics& diagnostics);
+
 // compile() from disk with progress on a terminal; nullopt after printing what is wrong.
 std::optional<compiler::CompileResult> compile_or_report(const std::string& path, compiler::CompileOptions options);
 

@@ -272,13 +272,6 @@ constexpr Index kAliasClocks[] = {
     0, 8, 1, 8, 3, 8,
 };
 
-constexpr AliasPair kAliasPairs[] = {
-    {.before = resource::bloom, .after = resource::depth, .wraps = true},
-    {.before = resource::depth, .after = resource::bloom},
-    {.before = resource::table, .after = resource::bloom},
-    {.before = resource::bloom, .after = resource::table, .wraps = true},
-};
-
 constexpr Queue kQueues[] = {
     {.kind = QueueKind::graphics},
 };
@@ -423,11 +416,11 @@ constexpr Transfer kTransfers[] = {
 constexpr Plan kPlan =
     {.name = "frame", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues, .batches = kBatches, .steps = kSteps,
      .groups = kGroups, .image_barriers = kImageBarriers, .buffer_barriers = kBufferBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
-     .releases = kReleases, .alias_pairs = kAliasPairs, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses,
-     .renderings = kRenderings, .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders,
-     .blends = kBlends, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers,
-     .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .engine_sets = kEngineSets,
-     .conditions = kConditions, .estimated_heap_bytes = 65792};
+     .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
+     .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
+     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
+     .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .engine_sets = kEngineSets, .conditions = kConditions,
+     .estimated_heap_bytes = 65792};
 
 }  // namespace
 
