@@ -22,7 +22,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   buffer sun_draws   : DrawArguments[MAX_INSTANCES]
   buffer cull_counts : u32[4] readback
 
-  pass mesh_cull : compute {
+  pass mesh_cull : compute queue compute may {
     shader "passes/geometry/mesh_cull.comp" group 64 1 1
     params camera
     read   scene.instances as storage
@@ -60,7 +60,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   image  lamp_shadow : d32f 256x256 layers MAX_LAMP_SHADOWS persistent init clear 0.0
 
   if host lamps_moved {
-    pass lamp_cull : compute {
+    pass lamp_cull : compute queue compute may {
       shader "passes/geometry/lamp_cull.comp" group 64 1 1
       params camera
       params lamps
@@ -113,14 +113,14 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
 
   image depth_range : rg32f ceil(view / TILE) mips DEPTH_MIPS  // least and greatest depth; mip 0: one texel a light tile
 
-  pass depth_range_first : compute {
+  pass depth_range_first : compute queue compute may {
     shader "passes/culling/depth_range_first.comp" group 8 8 1
     read   depth as sampled
     write  target = depth_range.mip(0) as storage
     dispatch over depth_range
   }
   for mip in 1..mips(depth_range) {
-    pass depth_range_down[mip] : compute {
+    pass depth_range_down[mip] : compute queue compute may {
       shader "passes/culling/depth_range_down.comp" group 8 8 1
       read   source = depth_range.mip(mip - 1) as sampled
       write  target = depth_range.mip(mip) as storage
@@ -138,7 +138,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
   buffer tile_features  : u32[ceil(view / SHADE_TILE).area] readback  // union of what the lamps of a record can do
 
-  pass zbin_build : compute {
+  pass zbin_build : compute queue compute may {
     shader "passes/culling/zbin_build.comp" group 64 1 1
     params camera
     read   scene.lights as storage
@@ -146,14 +146,14 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     atomic zbin_max as storage clear 0
     dispatch groups MAX_LIGHTS
   }
-  pass zbin_pack : compute {
+  pass zbin_pack : compute queue compute may {
     shader "passes/culling/zbin_pack.comp" group 64 1 1
     read   zbin_min as storage
     read   zbin_max as storage
     write  zbins as storage
     dispatch over ZBINS
   }
-  pass light_occlusion : compute {
+  pass light_occlusion : compute queue compute may {
     shader "passes/culling/light_occlusion.comp" group 64 1 1
     params camera
     read   scene.lights as storage
@@ -161,7 +161,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     atomic lights_seen as storage clear 0
     dispatch over MAX_LIGHTS
   }
-  pass light_cull : compute {
+  pass light_cull : compute queue compute may {
     shader "passes/culling/light_cull.comp" group 64 1 1
     params camera
     read   scene.lights as storage
@@ -171,7 +171,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     write  forward_lights as storage
     dispatch groups ceil(view / TILE)
   }
-  pass tile_cull : compute {
+  pass tile_cull : compute queue compute may {
     shader "passes/culling/tile_cull.comp" group 16 16 1
     params camera
     read   scene.lights as storage
@@ -225,7 +225,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   image occlusion : r16f view / 2
   image hdr       : rgba16f view
 
-  pass ambient_occlusion : compute {
+  pass ambient_occlusion : compute queue compute may {
     shader "passes/lighting/ambient_occlusion.comp" group 8 8 1
     params camera
     read   depth as sampled
@@ -233,7 +233,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     write  occlusion as storage
     dispatch over view / 2
   }
-  pass deferred_light : compute {
+  pass deferred_light : compute queue compute may {
     shader "passes/lighting/deferred_light.comp" group 16 16 1
     params camera
     params fog
@@ -283,7 +283,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   }
 
   image debug_image : rgba8 view
-  pass debug_view : compute {
+  pass debug_view : compute queue compute may {
     shader "passes/debug/debug_view.comp" group 8 8 1
     params camera
     params fog
@@ -312,13 +312,13 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   image  color     : rgba16f view history 1 init clear 0  // a: 1 where it holds a frame
   image  bloom     : rgba16f view / 2 mips BLOOM_MIPS
 
-  pass luminance : compute {
+  pass luminance : compute queue compute may {
     shader "passes/post/luminance.comp" group 16 16 1
     read   hdr as sampled
     atomic histogram as storage clear 0
     dispatch over view / 2
   }
-  pass expose : compute {
+  pass expose : compute queue compute may {
     shader "passes/post/expose.comp" group 1 1 1
     params camera
     read   histogram as storage
@@ -326,7 +326,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     write  exposure as storage
     dispatch groups 1
   }
-  pass resolve_temporal : compute {
+  pass resolve_temporal : compute queue compute may {
     shader "passes/post/resolve_temporal.comp" group 8 8 1
     params camera
     read   hdr as sampled
@@ -336,14 +336,14 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     write  color as storage
     dispatch over view
   }
-  pass bloom_first : compute {
+  pass bloom_first : compute queue compute may {
     shader "passes/post/bloom_first.comp" group 8 8 1
     read   color as sampled(linear_clamp)
     write  target = bloom.mip(0) as storage
     dispatch over bloom
   }
   for mip in 1..mips(bloom) {
-    pass bloom_down[mip] : compute {
+    pass bloom_down[mip] : compute queue compute may {
       shader "passes/post/bloom_down.comp" group 8 8 1
       read   source = bloom.mip(mip - 1) as sampled(linear_clamp)
       write  target = bloom.mip(mip) as storage
@@ -351,7 +351,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     }
   }
   for step in 1..BLOOM_MIPS {
-    pass bloom_up[step] : compute {
+    pass bloom_up[step] : compute queue compute may {
       shader "passes/post/bloom_up.comp" group 8 8 1
       read   source = bloom.mip(BLOOM_MIPS - step) as sampled(linear_clamp)
       update target = bloom.mip(BLOOM_MIPS - 1 - step) as storage
