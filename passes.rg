@@ -1,6 +1,6 @@
 // The frame of the demo: a courtyard under several hundred lights.
 //
-//   cull meshes ─ shadows ─ fog ─ depth ─ depth range ─ cull lights ─ G-buffer ─ shade ─ glass ─ expose ─ resolve ─ bloom ─ tone map
+//   cull meshes ─ shadows ─ fog ─ depth ─ cull lights ─ G-buffer ─ shade ─ glass ─ expose ─ resolve ─ bloom ─ tone map
 module frame
 
 import "passes/view/view.rg"

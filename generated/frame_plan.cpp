@@ -235,18 +235,18 @@ constexpr Resource kResources[] = {
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
     {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
-     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 93, .file = "passes/fog/fog.rg"},
+     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 94, .file = "passes/fog/fog.rg"},
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 95, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 100, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 96, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 101, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.extinction", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 97, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 102, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
-     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 98,
+     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 103,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
@@ -765,25 +765,25 @@ constexpr Pass kPasses[] = {
      .line = 72, .file = "passes.rg"},
     {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
      .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 38, .file = "passes/fog/fog.rg"},
+     .line = 39, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
      .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
      .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 53, .file = "passes/fog/fog.rg"},
+     .line = 57, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
      .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
      .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 63, .file = "passes/fog/fog.rg"},
+     .line = 67, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
      .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
      .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 79, .file = "passes/fog/fog.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
      .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
@@ -1242,9 +1242,9 @@ constexpr BarrierGroup kGroups[] = {
     {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:72
     {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:72
     {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:72
-    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:53
-    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:63
-    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:79
+    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
+    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
+    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
     {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
     {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
     {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:141

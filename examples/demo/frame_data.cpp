@@ -100,7 +100,9 @@ frame::View make_view(const Scene& scene, const NamedCamera& camera, const Frame
 }
 
 // Places within a froxel, another one each frame: the sequence of golden ratios of three dimensions (Roberts 2018).
-glm::vec3 froxel_jitter(uint32_t number) { return glm::fract(static_cast<float>(number % 64 + 1) * glm::vec3(0.819173f, 0.671044f, 0.549700f)) - 0.5f; }
+glm::vec3 froxel_jitter(uint32_t number) {
+  return glm::fract(static_cast<float>(number % 64 + 1) * glm::vec3(0.819173f, 0.671044f, 0.549700f)) - 0.5f;
+}
 
 // Near cascades are thin, far ones thick.
 glm::vec4 cascade_ends(float reach) { return reach * glm::vec4(0.10f, 0.27f, 0.55f, 1); }
@@ -122,9 +124,8 @@ frame::Fog make_fog(const Scene& scene, const NamedCamera& camera, const FrameSe
   return fog;
 }
 
-constexpr std::string_view kViews[] = {"final",    "lights",   "albedo",   "normal", "depth",     "roughness", "metallic", "diffuse",
-                                       "specular", "emissive", "overflow", "zbin",   "occlusion", "velocity",  "forward",
-                                       "fog",      "through",  "features"};
+constexpr std::string_view kViews[] = {"final",    "lights",   "albedo", "normal",    "depth",    "roughness", "metallic", "diffuse", "specular",
+                                       "emissive", "overflow", "zbin",   "occlusion", "velocity", "forward",   "fog",      "through", "features"};
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace

@@ -19,7 +19,8 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--view", options.views, "what to show, may be repeated; all if left out")->check(CLI::IsMember(views));
   app.add_option("--device", options.device, "number from --list-devices; -1 takes the best")->capture_default_str();
   app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
-  app.add_option("--record-spectrum", options.record_spectrum, "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
+  app.add_option("--record-spectrum", options.record_spectrum,
+                 "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
   app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
   app.add_option("--dump", options.dumps, "what PASS leaves in a resource, as PNG and EXR in --out; may be repeated")->type_name("PASS.RESOURCE");
   app.add_option("--trace", options.trace, "passes on a time line, for chrome://tracing or Perfetto")->type_name("FILE");

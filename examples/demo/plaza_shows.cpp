@@ -47,8 +47,8 @@ void hang_screen(Workshop& shop, const std::string& name, vec3 middle, vec3 faci
 
 void hang_screens(Workshop& shop) {
   for (const float x : {-11.4f, -8.4f, 8.4f, 11.4f})
-    hang_screen(shop, "rose screen " + std::to_string(static_cast<int>(x)), {x, 2.3f, plan::hall_front + 0.06f}, {0, 0, 1}, 0.7f, paint_of::rose_screen,
-                layer::roses, 2.6f, 7);
+    hang_screen(shop, "rose screen " + std::to_string(static_cast<int>(x)), {x, 2.3f, plan::hall_front + 0.06f}, {0, 0, 1}, 0.7f,
+                paint_of::rose_screen, layer::roses, 2.6f, 7);
   for (const float side : {-1.0f, 1.0f})
     hang_screen(shop, side < 0 ? "hall screen west" : "hall screen east", {side * (plan::hall_x - 0.06f), 2.7f, -16.4f}, {-side, 0, 0}, 0.7f,
                 paint_of::rose_screen, layer::roses, 2.6f, 6);
@@ -93,13 +93,13 @@ void light_hall_softly(Workshop& shop) {
   chandelier.side = {1, 0, 0};
   chandelier.size = {0.3f, 0};
   chandelier.clip[0] = {0, 0, -1, plan::hall_front - 0.15f};
-  Light& window = add_spot(shop, lamp::square | lamp::projected | lamp::shadow | lamp::soft, {2.2f, 5.2f, -14.2f}, {-4.6f, plan::terrace + 0.4f, -20.4f},
-                           vec3(1.0f, 0.95f, 0.9f) * 110.0f, 13, 0.21f);
+  Light& window = add_spot(shop, lamp::square | lamp::projected | lamp::shadow | lamp::soft, {2.2f, 5.2f, -14.2f},
+                           {-4.6f, plan::terrace + 0.4f, -20.4f}, vec3(1.0f, 0.95f, 0.9f) * 110.0f, 13, 0.21f);
   window.inner = 0.20f;
   window.size = {0.06f, 0};
   window.picture = layer::roses;
-  Light& fountain = add_spot(shop, lamp::round | lamp::shadow | lamp::soft, {6.5f, 9.0f, 7.5f}, {0, 0.5f, 1}, vec3(0.62f, 0.75f, 1.0f) * 60.0f, 16,
-                             0.36f);
+  Light& fountain =
+      add_spot(shop, lamp::round | lamp::shadow | lamp::soft, {6.5f, 9.0f, 7.5f}, {0, 0.5f, 1}, vec3(0.62f, 0.75f, 1.0f) * 60.0f, 16, 0.36f);
   fountain.size = {0.35f, 0};
   for (const float x : {-11.0f, 11.0f}) {  // between the columns of the northern walk
     Light& walk = add_spot(shop, lamp::square | lamp::shadow, {x, 4.9f, -12.6f}, {x, 0, -6.5f}, vec3(1.0f, 0.6f, 0.3f) * 16.0f, 9, 0.55f);

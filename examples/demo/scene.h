@@ -86,9 +86,9 @@ struct FogBox {
   glm::vec2 scroll{0};  // repeats a second
 };
 struct Fog {
-  float density = 0;                 // extinction at and below `ground`, 1 / metre
+  float density = 0;                  // extinction at and below `ground`, 1 / metre
   float ground = 0, thinning = 0.2f;  // metres; 1 / metre
-  float phase = 0;                   // mean cosine of sunlight's deflection
+  float phase = 0;                    // mean cosine of sunlight's deflection
   glm::vec3 albedo{0.95f};
   std::vector<FogBox> boxes;  // at most 32
 };

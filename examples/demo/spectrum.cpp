@@ -9,7 +9,8 @@ namespace rg::demo {
 namespace {
 
 // In the order of the bits, as passes/lighting/lighting.rg declares them.
-constexpr const char* kFeatures[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};
+constexpr const char* kFeatures[] = {"round_spots", "square_spots", "shadows",  "soft_shadows", "pictures",
+                                     "areas",       "tubes",        "darkness", "clip_planes"};
 static_assert(std::size(kFeatures) == frame::LAMP_FEATURES);
 
 nlohmann::ordered_json names_of(uint32_t mask) {
@@ -25,7 +26,9 @@ nlohmann::ordered_json to_json(const SpectrumScene& scene) {
   return out;
 }
 
-Error io_error(const std::filesystem::path& path) { return {ErrorCode::io, "`" + path.string() + "` cannot be written; choose another path with --record-spectrum"}; }
+Error io_error(const std::filesystem::path& path) {
+  return {ErrorCode::io, "`" + path.string() + "` cannot be written; choose another path with --record-spectrum"};
+}
 
 }  // namespace
 
@@ -34,7 +37,8 @@ void count_tiles(SpectrumScene& scene, std::span<const uint32_t> tile_features) 
 }
 
 Status write_spectrum(const std::filesystem::path& path, const std::vector<SpectrumScene>& scenes) {
-  nlohmann::ordered_json out{{"schema", "rgc-spectrum-1"}, {"spectrum", "lamp_features"}, {"features", names_of(~0u)}, {"scenes", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out{
+      {"schema", "rgc-spectrum-1"}, {"spectrum", "lamp_features"}, {"features", names_of(~0u)}, {"scenes", nlohmann::ordered_json::array()}};
   for (const SpectrumScene& scene : scenes) out["scenes"].push_back(to_json(scene));
   const std::filesystem::path temporary = path.string() + ".tmp";
   std::ofstream file(temporary);

@@ -33,7 +33,8 @@ struct Fog {
 }
 
 // Which lamps and boxes of fog reach each cluster, one bit each.
-technique fog_clusters(params camera: View, params fog: Fog, buffer lights, buffer volumes, inout buffer cluster_volumes, inout buffer cluster_lights)
+technique fog_clusters(params camera: View, params fog: Fog, buffer lights, buffer volumes, inout buffer cluster_volumes,
+    inout buffer cluster_lights)
 {
   pass cull : compute queue compute may {
     shader "fog_cull.comp" group 64 1 1
@@ -48,7 +49,10 @@ technique fog_clusters(params camera: View, params fog: Fog, buffer lights, buff
 }
 
 // Three kernels with volumes between them.
-technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer volumes, buffer cluster_volumes, buffer cluster_lights, image albedo_maps, image sun_shadow, image lamp_shadow, inout image density, inout image inscatter, inout image extinction, inout image memory, inout image scattered, inout image transmittance)
+technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer volumes, buffer cluster_volumes,
+    buffer cluster_lights, image albedo_maps, image sun_shadow, image lamp_shadow, inout image density,
+    inout image inscatter, inout image extinction, inout image memory, inout image scattered,
+    inout image transmittance)
 {
   pass inject : compute queue compute may {
     shader "fog_inject.comp" group 64 1 1
@@ -88,7 +92,8 @@ technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer 
   }
 }
 
-technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow, inout image scattered, inout image transmittance)
+technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow,
+    image lamp_shadow, inout image scattered, inout image transmittance)
 {
   buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
   buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
@@ -98,11 +103,13 @@ technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer
   image  memory          : rgba16f froxels history 1 init clear -1  // rgb: inscatter, a: extinction, negative where nothing is known
 
   use clusters = fog_clusters(camera, fog, lights, volumes, cluster_volumes, cluster_lights)
-  use chain = fog_chain(camera, fog, lights, volumes, cluster_volumes, cluster_lights, albedo_maps, sun_shadow, lamp_shadow, density, inscatter, extinction, memory, scattered, transmittance)
+  use chain = fog_chain(camera, fog, lights, volumes, cluster_volumes, cluster_lights, albedo_maps, sun_shadow, lamp_shadow, density, inscatter,
+      extinction, memory, scattered, transmittance)
 }
 
 // The same at the same ports in one kernel: groups walk their columns from near to far, and nothing is written but the sums and the history.
-technique merged_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow, image lamp_shadow, inout image scattered, inout image transmittance)
+technique merged_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow,
+    image lamp_shadow, inout image scattered, inout image transmittance)
 {
   buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
   buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]

@@ -14,7 +14,8 @@ Stretch join(Stretch near, Stretch far) { return Stretch(near.light + near.throu
 
 // Of a slice, seen along its column.
 Stretch slice_stretch(vec4 media, int slice, float slant) {
-  float begin = slice_to_depth(float(slice), fog.count.z, fog.start, fog.ends), end = slice_to_depth(float(slice + 1), fog.count.z, fog.start, fog.ends);
+  float begin = slice_to_depth(float(slice), fog.count.z, fog.start, fog.ends);
+  float end = slice_to_depth(float(slice + 1), fog.count.z, fog.start, fog.ends);
   return make_stretch(media.rgb, media.a, (end - begin) * slant);
 }
 float column_slant(ivec2 column) { return length(froxel_ray((vec2(column) + 0.5) / fog.count.xy)); }

@@ -41,8 +41,8 @@ float mean_blocker(uint layer, vec2 texel, float reach, float depth, int size, i
   return found > 0.0 ? sum / found : 0.0;
 }
 
-// Share of the lamp that is seen. Soft lamps have a penumbra as wide as the lamp seen past the mean blocker (Fernando 2005); hard ones are soft ones of
-// no size, with one tap. `off`: unit normal of a surface at `p`, 0 in the open.
+// Share of the lamp that is seen. Soft lamps have a penumbra as wide as the lamp seen past the mean blocker (Fernando 2005); hard ones are soft ones
+// of no size, with one tap. `off`: unit normal of a surface at `p`, 0 in the open.
 float lamp_visibility(Light light, vec3 p, vec3 off, bool soft) {
   int size = textureSize(lamp_shadow, 0).x, taps = soft ? SOFT_TAPS : 1;
   float width = 2.0 * max(dot(p - light.position, light.direction), 0.0) / (light.cot * float(size));  // of a texel at the point

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-
 namespace rg::reference {
 namespace {
 

@@ -47,7 +47,8 @@ graph lab(params camera: View, params fog: Fog, world: World)
   buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
   buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
   use clusters = fog_clusters(camera, fog, world.lights, world.fog_volumes, cluster_volumes, cluster_lights)
-  use exact = fog_chain(camera, fog, world.lights, world.fog_volumes, cluster_volumes, cluster_lights, world.albedo_maps, sun_shadow, lamp_shadow, density, inscatter, extinction, memory, exact_light, exact_through)
+  use exact = fog_chain(camera, fog, world.lights, world.fog_volumes, cluster_volumes, cluster_lights, world.albedo_maps, sun_shadow,
+                        lamp_shadow, density, inscatter, extinction, memory, exact_light, exact_through)
   use wide = merged_fog(camera, fog, world.lights, world.fog_volumes, world.albedo_maps, sun_shadow, lamp_shadow, wide_light, wide_through)
 }
 )";

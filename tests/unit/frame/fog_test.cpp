@@ -204,8 +204,8 @@ TEST(FogLight, IsWhatLampsSunAndSkyScatter) {
   const Volume light = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_memory);
   for_some_froxels(light.count, [&](int x, int y, int z) {
     const glm::dvec3 p = middle_of(data, x, y, z);
-    const glm::dvec3 expected =
-        reference::scattered_light(data.view, data.fog, data.lights, p) * reference::to_double(data.fog.albedo) * reference::fog_density(data.fog, volumes, p);
+    const glm::dvec3 expected = reference::scattered_light(data.view, data.fog, data.lights, p) * reference::to_double(data.fog.albedo) *
+                                reference::fog_density(data.fog, volumes, p);
     for (int i = 0; i < 3; ++i) ASSERT_NEAR(light.at(x, y, z)[i], expected[i], 3e-3 * expected[i] + 2e-6) << x << " " << y << " " << z;
   });
 }

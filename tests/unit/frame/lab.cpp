@@ -31,7 +31,19 @@ void add_instance(Scene& scene, const demo::MeshData& mesh, const demo::Material
 glm::vec4 decode_packed_float(uint32_t bits) { return glm::vec4(glm::unpackF2x11_1x10(bits), 1); }
 
 // VkFormat numbers of the images that the tests look at.
-enum : uint32_t { kR8 = 9, kRgba8 = 37, kR16f = 76, kRg16 = 77, kRg16f = 83, kRgba16f = 97, kR32f = 100, kRg32f = 103, kRgba32f = 109, kR11g11b10f = 122, kD32f = 126 };
+enum : uint32_t {
+  kR8 = 9,
+  kRgba8 = 37,
+  kR16f = 76,
+  kRg16 = 77,
+  kRg16f = 83,
+  kRgba16f = 97,
+  kR32f = 100,
+  kRg32f = 103,
+  kRgba32f = 109,
+  kR11g11b10f = 122,
+  kD32f = 126
+};
 
 glm::vec4 decode(uint32_t format, const std::byte* at) {
   const auto word = [&](size_t i) {

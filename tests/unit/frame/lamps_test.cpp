@@ -1,8 +1,9 @@
 // The features of lamps, one by one, against their equations in double precision: A6.
+#include "examples/demo/lamps.h"
+
 #include <numbers>
 #include <random>
 
-#include "examples/demo/lamps.h"
 #include "examples/demo/mesh_builder.h"
 #include "examples/demo/textures.h"
 #include "tests/reference/culling.h"
@@ -22,7 +23,9 @@ struct Block {
   glm::vec3 low, high;
   float roughness, metallic;
 };
-constexpr Block kBlocks[] = {{{-2.2f, 0, -0.8f}, {-1.2f, 1.0f, 0.2f}, 0.9f, 0}, {{-0.3f, 0.5f, -0.6f}, {0.7f, 0.7f, 0.4f}, 0.25f, 0}, {{1.4f, 0, 0.2f}, {2.4f, 0.8f, 1.2f}, 0.5f, 1}};
+constexpr Block kBlocks[] = {{{-2.2f, 0, -0.8f}, {-1.2f, 1.0f, 0.2f}, 0.9f, 0},
+                             {{-0.3f, 0.5f, -0.6f}, {0.7f, 0.7f, 0.4f}, 0.25f, 0},
+                             {{1.4f, 0, 0.2f}, {2.4f, 0.8f, 1.2f}, 0.5f, 1}};
 
 Scene make_stage() {
   Scene scene = make_floor();
@@ -141,7 +144,8 @@ TEST(Lamps, ClipPlanes) {
   expect_lit(compare({light}), 2000, 2000);
 }
 TEST(Lamps, AllTogether) {
-  demo::Light area = make_lamp(lamp::area | lamp::clipped), tube = make_lamp(lamp::tube | lamp::dark), soft = make_lamp(lamp::square | lamp::shadow | lamp::soft | lamp::projected);
+  demo::Light area = make_lamp(lamp::area | lamp::clipped), tube = make_lamp(lamp::tube | lamp::dark),
+              soft = make_lamp(lamp::square | lamp::shadow | lamp::soft | lamp::projected);
   area.size = tube.size = {0.5f, 0.2f};
   area.clip[0] = {0.3f, 0, 1, 1};
   tube.color = {1, 1, 1};
@@ -157,7 +161,8 @@ double greatest_difference(const Texels& a, const Texels& b) {
   double greatest = 0;
   for (size_t i = 0; i < a.data.size(); ++i)
     for (int c = 0; c < 3; ++c)
-      greatest = std::max(greatest, static_cast<double>(std::abs(a.data[i][c] - b.data[i][c])) / std::max(1e-2, static_cast<double>(std::abs(a.data[i][c]))));
+      greatest = std::max(greatest,
+                          static_cast<double>(std::abs(a.data[i][c] - b.data[i][c])) / std::max(1e-2, static_cast<double>(std::abs(a.data[i][c]))));
   return greatest;
 }
 
@@ -187,7 +192,8 @@ TEST(Lamps, PenumbraeGrowWithTheLamp) {
     light.size = {radius, 0};
     const Texels soft = shade({light}), full = shade({make_lamp(lamp::square)});
     uint32_t count = 0;
-    for (size_t i = 0; i < soft.data.size(); ++i) count += full.data[i].x > 0.02f && soft.data[i].x > 0.05f * full.data[i].x && soft.data[i].x < 0.95f * full.data[i].x;
+    for (size_t i = 0; i < soft.data.size(); ++i)
+      count += full.data[i].x > 0.02f && soft.data[i].x > 0.05f * full.data[i].x && soft.data[i].x < 0.95f * full.data[i].x;
     return count;
   };
   const uint32_t narrow = partly_lit(0.1f), wide = partly_lit(0.2f);
@@ -323,7 +329,8 @@ TEST(LampEnergy, AreasAreTheIntegralOverTheLamp) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 60; ++i) {
     const Case c = random_case(random, lamp::area, {0.2f + 0.1f * static_cast<float>(i % 4), 0.3f}, 0.8f);
-    const dvec3 middle = reference::to_double(c.light.position), forward = reference::to_double(c.light.direction), side = reference::to_double(c.light.side);
+    const dvec3 middle = reference::to_double(c.light.position), forward = reference::to_double(c.light.direction),
+                side = reference::to_double(c.light.side);
     const dvec3 expected = integrate(c.surface, [&]() -> Sample {
       const dvec3 towards = middle + side * (unit(random) * c.light.size.x) + glm::cross(forward, side) * (unit(random) * c.light.size.y);
       const double distance2 = glm::dot(towards, towards), cosine = std::max(-glm::dot(glm::normalize(towards), forward), 0.0);

@@ -34,7 +34,8 @@ struct Mips {
   glm::dvec3 bilinear(size_t level, glm::dvec2 uv) const {
     const glm::dvec2 at = uv * static_cast<double>(demo::kTextureSize >> level) - 0.5, base = glm::floor(at), f = at - base;
     const int x = static_cast<int>(base.x), y = static_cast<int>(base.y);
-    return glm::mix(glm::mix(texel(level, x, y), texel(level, x + 1, y), f.x), glm::mix(texel(level, x, y + 1), texel(level, x + 1, y + 1), f.x), f.y);
+    return glm::mix(glm::mix(texel(level, x, y), texel(level, x + 1, y), f.x), glm::mix(texel(level, x, y + 1), texel(level, x + 1, y + 1), f.x),
+                    f.y);
   }
   glm::dvec3 trilinear(glm::dvec2 uv, double level) const {
     const auto low = static_cast<size_t>(level), high = std::min(low + 1, levels.size() - 1);

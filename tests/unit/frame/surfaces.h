@@ -15,7 +15,8 @@ reference::SurfacePoint surface_at(const GBuffer& g, const FrameData& data, int 
 void clear_fog(FrameData& data);
 void keep_lamps_only(FrameData& data);  // no sun, no sky, no fog
 
-// The scene's texture layers, filtered, and the shadow maps that a frame of `data` draws, as the shaders read them. NaN where a compare is too close to call.
+// The scene's texture layers, filtered, and the shadow maps that a frame of `data` draws, as the shaders read them. NaN where a compare is too close
+// to call.
 reference::LampTextures make_lookups(Lab& lab, const FrameData& data, const Scene& scene);
 
 // Channel by channel, within `relative` of what is expected and `slack`.
