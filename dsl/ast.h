@@ -122,6 +122,17 @@ struct FeatureDeclaration {
 struct ConditionDeclaration {
   Name name;
 };
+struct SpectrumDeclaration {
+  struct Member {
+    Name name;
+    std::vector<Name> needs;
+  };
+  Name name;
+  std::vector<Member> members;
+  Boxed<Expr> modes;
+  std::string_view profile;
+  Span profile_span;
+};
 struct EngineSetDeclaration {
   Name name;
   int64_t set = 0;
@@ -221,8 +232,17 @@ struct WordStatement {  // state NAME, bind NAME, after PASS, keep
   Boxed<Expr> value;
   Span span;
 };
-using Statement =
-    std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement, WordStatement>;
+struct FeaturesStatement {  // features fog, shading
+  std::vector<Name> names;
+  Span span;
+};
+struct SpectrumStatement {  // spectrum light_features by tile_features
+  Name spectrum;
+  Expr masks;
+  Span span;
+};
+using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement,
+                               WordStatement, FeaturesStatement, SpectrumStatement>;
 
 struct PassDeclaration {
   Name name;
@@ -290,7 +310,7 @@ struct GraphDeclaration {  // or, as `technique`, a piece of one
 };
 
 using Declaration = std::variant<Constant, ExtentDeclaration, StructDeclaration, InterfaceDeclaration, SamplerDeclaration, StateDeclaration,
-                                 FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration>;
+                                 FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration, SpectrumDeclaration>;
 struct File {
   FileId file;
   Name module;

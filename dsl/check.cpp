@@ -40,6 +40,9 @@ void check_symbol(Checker& checker, uint32_t symbol) {
     case SymbolKind::set:
       check_engine_set(checker, symbol);
       break;
+    case SymbolKind::spectrum:
+      spectrum_of(checker, symbol);
+      break;
     case SymbolKind::interface:
     case SymbolKind::graph:
     case SymbolKind::technique:

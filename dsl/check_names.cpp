@@ -18,7 +18,8 @@ Named named(SymbolKind kind, const Node& node) {
 
 Named name_of(const ast::Declaration& declaration) {
   constexpr SymbolKind kKinds[] = {SymbolKind::constant, SymbolKind::extent,  SymbolKind::structure, SymbolKind::interface, SymbolKind::sampler,
-                                   SymbolKind::state,    SymbolKind::feature, SymbolKind::condition, SymbolKind::set,       SymbolKind::graph};
+                                   SymbolKind::state,    SymbolKind::feature, SymbolKind::condition, SymbolKind::set,       SymbolKind::graph,
+                                   SymbolKind::spectrum};
   Named result = std::visit([&](const auto& node) { return named(kKinds[declaration.index()], node); }, declaration);
   const auto* graph = std::get_if<ast::GraphDeclaration>(&declaration);
   if (graph && graph->is_technique) result.kind = SymbolKind::technique;
@@ -149,7 +150,7 @@ std::optional<uint32_t> find_qualified(Checker& checker, uint32_t module, const 
 
 const char* describe(SymbolKind kind) {
   constexpr const char* kNames[] = {"constant", "extent",    "struct", "interface", "sampler",  "state",
-                                    "feature",  "condition", "set",    "graph",     "technique"};
+                                    "feature",  "condition", "set",    "graph",     "technique", "spectrum"};
   return kNames[static_cast<size_t>(kind)];
 }
 

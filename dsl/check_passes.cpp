@@ -249,6 +249,14 @@ void visit(Builder& at, const ast::WordStatement& node) {
   at.out.pass.bind = std::string(at.checker.symbols[*symbol].name.text);
 }
 
+void visit(Builder& at, const ast::FeaturesStatement& node) {
+  if (!add_features(at.checker, at.scope, at.out.pass, node)) at.out.dropped = at.scope.incomplete = true;
+}
+
+void visit(Builder& at, const ast::SpectrumStatement& node) {
+  if (!add_spectrum(at.checker, at.scope, at.out, node)) at.out.dropped = at.scope.incomplete = true;
+}
+
 void read_heading(Builder& at) {
   const std::string_view kind = at.node.kind.text, queue = at.node.queue.text;
   Pass& pass = at.out.pass;
@@ -400,6 +408,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   settle_stages(at.out.pass);
   name_hidden_accesses(at.out.pass);
   check_pass_rules(checker, scope.graph, at.out.pass);
+  if (!check_spectrum_pass(checker, scope.graph, at.out.pass)) return drop_pass(at);
   add_passes(at);
 }
 

@@ -34,7 +34,7 @@ struct Value {
 
 // ---- names ------------------------------------------------------------------------------------------------------
 
-enum class SymbolKind : uint8_t { constant, extent, structure, interface, sampler, state, feature, condition, set, graph, technique };
+enum class SymbolKind : uint8_t { constant, extent, structure, interface, sampler, state, feature, condition, set, graph, technique, spectrum };
 struct Symbol {
   SymbolKind kind = SymbolKind::constant;
   uint32_t module = 0;
@@ -165,6 +165,9 @@ FeatureId feature_of(Checker& checker, uint32_t symbol);
 ConditionId condition_of(Checker& checker, uint32_t symbol);
 void check_engine_set(Checker& checker, uint32_t symbol);
 
+// ---- check_variants.cpp -----------------------------------------------------------------------------------------
+SpectrumId spectrum_of(Checker& checker, uint32_t symbol);
+
 // ---- check_resources.cpp ----------------------------------------------------------------------------------------
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
 void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDeclaration& graph);
@@ -195,6 +198,10 @@ struct PassScope {
 std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const ast::AccessStatement& statement);
 uint32_t add_plain_access(GraphScope& scope, PassScope& out, const Place& place, Mode mode, Role role);
 void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::TransferStatement& statement);
+// False after a report.
+bool add_features(Checker& checker, const GraphScope& scope, Pass& pass, const ast::FeaturesStatement& statement);
+bool add_spectrum(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement);
+bool check_spectrum_pass(Checker& checker, const Graph& graph, const Pass& pass);
 void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
 void merge_reads_and_writes(Pass& pass);
 void name_hidden_accesses(Pass& pass);

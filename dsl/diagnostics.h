@@ -46,6 +46,7 @@ class Diagnostics {
  public:
   Diagnostic& report(Diagnostic diagnostic);  // the reference is valid until the next report
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {});
+  void replace_last(Diagnostic diagnostic) { rows_.back() = std::move(diagnostic); }  // with one that has more notes
   bool has_errors() const;
   const std::vector<Diagnostic>& rows() const { return rows_; }
   void sort();  // by file, place, code; drops exact repeats

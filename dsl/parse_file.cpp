@@ -327,7 +327,7 @@ void complain_about_declaration(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), {"module", "import", "target", "const", "extent", "struct", "interface", "sampler", "state",
-                                                    "feature", "condition", "set", "graph", "technique"});
+                                                    "feature", "condition", "set", "graph", "technique", "spectrum"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -371,6 +371,8 @@ void parse_any_declaration(Parser& parser, File& file) {
     out.push_back(parse_condition(parser));
   else if (word == "set")
     out.push_back(parse_engine_set(parser));
+  else if (word == "spectrum")
+    out.push_back(parse_spectrum(parser));
   else if (word == "graph" || word == "technique")
     out.push_back(parse_graph(parser, word == "technique"));
   else if (!rejoin_graph(parser, file))

@@ -47,17 +47,6 @@ bool parse_access_option(Parser& parser, ast::AccessStatement& access) {
   return true;
 }
 
-// Something on the same line that is neither an option nor the next statement.
-void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options) {
-  if (parser.silent || parser.peek().starts_line || parser.is(TokenKind::right_brace)) return;
-  if (parser.is(TokenKind::identifier) && begins_statement(parser.word())) return;
-  if (!parser.is(TokenKind::identifier)) return parser.unexpected("the end of the statement");
-  Diagnostic diagnostic(DiagnosticKind::UnknownOption, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), options);
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
-  parser.complain(std::move(diagnostic));
-}
-
 ast::AccessStatement parse_access(Parser& parser, ast::Verb verb) {
   ast::AccessStatement access;
   const uint32_t begin = parser.peek().begin;
@@ -240,6 +229,8 @@ ast::Statement parse_other(Parser& parser) {
   if (word == "dispatch") return parse_dispatch(parser);
   if (word == "draw") return parse_draw(parser);
   if (word == "params") return parse_params(parser);
+  if (word == "features") return parse_features(parser);
+  if (word == "spectrum") return parse_spectrum_statement(parser);
   if (word == "host") return parse_host_transfer(parser);
   if (word == "copy" || word == "blit" || word == "clear" || word == "fill" || word == "resolve") return parse_transfer(parser);
   return parse_word_statement(parser);
@@ -249,7 +240,7 @@ void complain_about_statement(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
   static const std::vector<std::string_view> kWords = {"read",   "write",  "update",     "atomic", "color",    "depth", "stencil", "resolve",
                                                        "params", "shader", "fullscreen", "state",  "dispatch", "draw",  "bind",    "copy",
-                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep"};
+                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep",  "features", "spectrum"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), kWords);
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
@@ -278,6 +269,16 @@ void parse_queue(Parser& parser, PassDeclaration& pass) {
 }
 
 }  // namespace
+
+void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options) {
+  if (parser.silent || parser.peek().starts_line || parser.is(TokenKind::right_brace)) return;
+  if (parser.is(TokenKind::identifier) && begins_statement(parser.word())) return;
+  if (!parser.is(TokenKind::identifier)) return parser.unexpected("the end of the statement");
+  Diagnostic diagnostic(DiagnosticKind::UnknownOption, parser.here(), {std::string(parser.word().substr(0, 40))});
+  const std::string guess = closest(parser.word(), options);
+  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  parser.complain(std::move(diagnostic));
+}
 
 void parse_pass_body(Parser& parser, PassDeclaration& pass) {
   pass.has_error |= parser.silent;

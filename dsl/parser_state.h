@@ -99,6 +99,11 @@ ast::ResourceDeclaration parse_member(Parser& parser);    // of an interface
 ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclaration image);
 ast::PassDeclaration parse_pass(Parser& parser);  // after `pass`
 void parse_pass_body(Parser& parser, ast::PassDeclaration& pass);
+ast::FeaturesStatement parse_features(Parser& parser);
+ast::SpectrumStatement parse_spectrum_statement(Parser& parser);
+ast::SpectrumDeclaration parse_spectrum(Parser& parser);
+// Something on the same line that is neither one of `options` nor the next statement.
+void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options);
 ast::GraphDeclaration parse_graph(Parser& parser, bool is_technique);
 void parse_items(Parser& parser, std::vector<ast::Item>& items);
 

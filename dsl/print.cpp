@@ -207,6 +207,10 @@ std::string heading(const Program& program, const Graph& graph, const Pass& pass
 void print_pass(Printer& at, const Graph& graph, size_t id, const Pass& pass) {
   at.line("  p{} {}: {} ({})", id, pass.name, heading(at.program, graph, pass), pass.module);
   for (const Shader& shader : pass.shaders) at.line("    shader {} {}", stages_text(shader.stage), shader.path);
+  for (const ShaderFeature& feature : pass.features)
+    at.line("    feature {}{}", feature.name, feature.feature.valid() ? "" : fmt::format(" = {}", feature.value));
+  if (pass.spectrum.valid())
+    at.line("    spectrum {} by {}", at.program.spectra[pass.spectrum].name, graph.resources[pass.accesses[pass.masks].resource].name);
   for (size_t i = 0; i < pass.accesses.size(); ++i) print_access(at, graph, i, pass.accesses[i]);
   if (pass.draw.kind != DrawKind::none) print_draw(at, pass.draw);
   if (pass.dispatch.kind != DispatchKind::none) print_dispatch(at, pass.dispatch);

@@ -120,6 +120,13 @@ void visit(Printer& at, const HostTransfer& node) {
 void visit(Printer& at, const ParamsStatement& node) { at.line("params " + text(node.name) + (node.type ? ":" + text(node.type) : "")); }
 void visit(Printer& at, const WordStatement& node) { at.line(text(node.word) + text(node.value)); }
 
+void visit(Printer& at, const FeaturesStatement& node) {
+  std::string out = "features";
+  for (const Name& name : node.names) out += " " + text(name);
+  at.line(out);
+}
+void visit(Printer& at, const SpectrumStatement& node) { at.line("spectrum " + text(node.spectrum) + " by" + text(node.masks)); }
+
 void print_items(Printer& at, const std::vector<Item>& items);
 
 void visit(Printer& at, const ResourceDeclaration& node) { at.line(resource_text(node)); }
@@ -200,6 +207,18 @@ void visit(Printer& at, const FeatureDeclaration& node) {
 
 void visit(Printer& at, const ConditionDeclaration& node) { at.line("condition " + text(node.name)); }
 void visit(Printer& at, const EngineSetDeclaration& node) { at.line(fmt::format("set {} {}", text(node.name), node.set)); }
+
+void visit(Printer& at, const SpectrumDeclaration& node) {
+  at.line("spectrum " + text(node.name) + (node.modes ? " modes" + text(*node.modes) : "") +
+          (node.profile.empty() ? "" : " profile " + std::string(node.profile)));
+  ++at.depth;
+  for (const auto& member : node.members) {
+    std::string out = text(member.name) + (member.needs.empty() ? "" : " requires");
+    for (const Name& need : member.needs) out += " " + text(need);
+    at.line(out);
+  }
+  --at.depth;
+}
 
 std::string parameter_text(const Parameter& node) {
   constexpr const char* kKinds[] = {"params ", "surface ", "", "image ", "buffer ", "const "};

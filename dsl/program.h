@@ -25,6 +25,7 @@ using ConditionId = Id<struct ConditionTag>;
 using GraphId = Id<struct GraphTag>;
 using ResourceId = Id<struct ResourceTag>;  // indexes Graph::resources
 using PassId = Id<struct PassTag>;          // indexes Graph::passes
+using SpectrumId = Id<struct SpectrumTag>;
 using ParamsId = Id<struct ParamsTag>;      // indexes Graph::params
 
 // ---- values known when the program runs -------------------------------------------------------------------------
@@ -245,6 +246,7 @@ struct Shader {
   Stage stage = stage_compute;
   std::string path;        // relative to the root file's folder, whatever module names it
   Span span;
+  std::string text = {};   // of a shader the compiler wrote itself; empty: read the file
   friend bool operator==(const Shader&, const Shader&) = default;
 };
 
@@ -294,6 +296,16 @@ struct Params {  // a uniform block that host code fills, graph-wide or of one p
   friend bool operator==(const Params&, const Params&) = default;
 };
 
+// A constant that a pass gives its shaders: the configuration's value of a feature, or a value decided for this pass alone.
+struct ShaderFeature {
+  std::string name;                 // as shaders write it; a `bool` where `values` is empty, else a `uint`
+  FeatureId feature;                // invalid: `value` holds
+  uint32_t value = 0;
+  std::vector<std::string> values;  // `name_value` is each one's constant
+  Span span;
+  friend bool operator==(const ShaderFeature&, const ShaderFeature&) = default;
+};
+
 struct Pass {
   std::string name;        // unique in the graph; loop instances are `bloom_down[3]`
   std::string module;
@@ -313,6 +325,10 @@ struct Pass {
   Guard guard;
   std::vector<ConditionId> conditions;  // latched host conditions, all must hold
   std::vector<MipLimit> mip_limits;
+  std::vector<ShaderFeature> features = {};  // `features fog, shading`
+  SpectrumId spectrum;     // `spectrum S by MASKS`: one kernel a mode, see compiler/spectrum/expand_spectra.h
+  uint32_t masks = kAll;   // index into accesses: a u32 a group, its bits the spectrum's features
+  std::vector<std::string> interface_lines;  // GLSL behind the generated interface, from the compiler itself
   Span span;               // of the pass name
   friend bool operator==(const Pass&, const Pass&) = default;
 };
@@ -362,6 +378,22 @@ struct Condition {
   friend bool operator==(const Condition&, const Condition&) = default;
 };
 
+// Features that the GPU chooses by tile: bit i of a mask is features[i]. `modes` kernels serve all masks.
+struct Spectrum {
+  struct Member {
+    std::string name;
+    std::vector<uint32_t> needs;  // `requires`: indices of members
+    Span span;
+    friend bool operator==(const Member&, const Member&) = default;
+  };
+  std::string name;
+  std::vector<Member> members;
+  uint32_t modes = 8;
+  std::string profile;  // relative to the root file's folder; empty: none
+  Span span, profile_span;
+  friend bool operator==(const Spectrum&, const Spectrum&) = default;
+};
+
 struct Program {
   std::string module;  // of the root file
   Table<ExprId, Expr> exprs;
@@ -372,6 +404,7 @@ struct Program {
   Table<FeatureId, Feature> features;
   Table<ConditionId, Condition> conditions;
   Table<Id<struct EngineSetTag>, EngineSet> engine_sets;
+  Table<SpectrumId, Spectrum> spectra;
   struct Constant { std::string name; int64_t value = 0; friend bool operator==(const Constant&, const Constant&) = default; };
   std::vector<Constant> constants;  // public integer constants, also given to shaders and C++
   Table<GraphId, Graph> graphs;

@@ -27,7 +27,8 @@ std::string_view family(std::string_view code) {
                                            "Meaning: what passes do to resources cannot be right in the order written.",
                                            "Shaders: a shader does not compile, or does something else than its pass declares.",
                                            "Judged facts: an assertion or a limit does not hold for the plan.",
-                                           "The command line and the world around it."};
+                                           "The command line and the world around it.",
+                                           "Variants: features that reach shaders, spectra, fused kernels, the cache."};
   const size_t index = static_cast<size_t>(code[3] - '0');
   return code[2] == '0' && index < std::size(families) ? families[index] : std::string_view();
 }

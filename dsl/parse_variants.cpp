@@ -1,0 +1,69 @@
+// What chooses between variants of a shader: `features` and `spectrum` of a pass, `spectrum` declarations.
+#include "dsl/parser_state.h"
+
+namespace rg::dsl {
+namespace {
+
+void parse_names(Parser& parser, const char* what, std::vector<ast::Name>& names) {
+  do {
+    names.push_back(parser.expect_name(what));
+  } while (!parser.silent && parser.accept(TokenKind::comma));
+}
+
+void parse_profile(Parser& parser, ast::SpectrumDeclaration& spectrum) {
+  parser.take();
+  spectrum.profile_span = parser.here();
+  if (!parser.is(TokenKind::string)) return parser.expected("the path of a profile");
+  spectrum.profile = parser.word().substr(1);
+  if (!spectrum.profile.empty() && spectrum.profile.back() == '"') spectrum.profile.remove_suffix(1);
+  parser.take();
+}
+
+void parse_member(Parser& parser, ast::SpectrumDeclaration& spectrum) {
+  ast::SpectrumDeclaration::Member member;
+  member.name = parser.expect_name("a feature, `modes` or `profile`");
+  if (!parser.silent && parser.accept_word("requires")) parse_names(parser, "the name of a feature", member.needs);
+  if (!parser.silent) spectrum.members.push_back(std::move(member));
+}
+
+}  // namespace
+
+ast::FeaturesStatement parse_features(Parser& parser) {
+  ast::FeaturesStatement statement;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  parse_names(parser, "the name of a feature", statement.names);
+  statement.span = parser.since(begin);
+  complain_about_rest(parser, {});
+  return statement;
+}
+
+ast::SpectrumStatement parse_spectrum_statement(Parser& parser) {
+  ast::SpectrumStatement statement;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  statement.spectrum = parser.expect_name("the name of a spectrum");
+  if (!parser.silent) parser.expect_one_of("`by`", {"by"});
+  if (!parser.silent) statement.masks = parse_place(parser, "a buffer of masks");
+  statement.span = parser.since(begin);
+  complain_about_rest(parser, {"by"});
+  return statement;
+}
+
+ast::SpectrumDeclaration parse_spectrum(Parser& parser) {
+  ast::SpectrumDeclaration spectrum;
+  parser.take();
+  spectrum.name = parser.expect_name("the name of the spectrum");
+  if (parser.silent) return spectrum;
+  parse_block(parser, Level::fields, [&] {
+    if (parser.accept_word("modes"))
+      spectrum.modes = parse_expression(parser, "a number of kernels");
+    else if (parser.is_word("profile"))
+      parse_profile(parser, spectrum);
+    else
+      parse_member(parser, spectrum);
+  });
+  return spectrum;
+}
+
+}  // namespace rg::dsl
