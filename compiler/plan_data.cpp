@@ -16,7 +16,9 @@ Plan PlanData::view() const {
   p.passes = passes, p.accesses = accesses, p.renderings = renderings, p.attachments = attachments;
   p.shaders = shaders, p.pipelines = pipelines, p.pipeline_shaders = pipeline_shaders, p.blends = blends;
   p.vertex_bindings = vertex_bindings, p.vertex_attributes = vertex_attributes, p.bindings = bindings, p.samplers = samplers;
-  p.params = params, p.pass_params = pass_params, p.transfers = transfers, p.mip_limits = mip_limits;
+  p.params = params, p.pass_params = pass_params;
+  p.features = features, p.pass_features = pass_features, p.pipeline_choices = pipeline_choices;
+  p.transfers = transfers, p.mip_limits = mip_limits;
   p.engine_sets = engine_sets, p.conditions = conditions, p.culled = culled;
   p.estimated_heap_bytes = estimated_heap_bytes;
   return p;

@@ -47,6 +47,9 @@ struct PlanData {
   std::vector<Sampler> samplers;
   std::vector<Params> params;
   std::vector<Index> pass_params;
+  std::vector<Feature> features;
+  std::vector<Index> pass_features;
+  std::vector<Index> pipeline_choices;
   std::vector<Transfer> transfers;
   std::vector<MipLimit> mip_limits;
   std::vector<EngineSet> engine_sets;

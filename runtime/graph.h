@@ -66,6 +66,7 @@ struct FrameInputs {
   uint64_t conditions = 0;                                // bits of Plan::conditions
   std::span<const std::span<const std::byte>> updates = {};    // by Transfer::update_slot
   std::span<const VkDescriptorSet> engine_sets = {};           // by index of Plan::engine_sets
+  std::span<const uint32_t> features = {};                     // values, by index of Plan::features; empty: the initial ones
   std::span<const SemaphoreUse> waits = {}, signals = {};      // at most 16 each
 };
 

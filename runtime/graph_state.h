@@ -47,6 +47,8 @@ struct PassObjects {
   UniquePipelineLayout layout;
   UniqueRenderPass render_pass;  // only where classic render passes are recorded
   UniquePipeline pipeline;
+  std::vector<UniquePipeline> more_pipelines;  // of other shader variants
+  std::vector<VkPipeline> choices;             // by combination of feature values; null: excluded
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
 };
 

@@ -36,6 +36,19 @@ Status check_params(const Plan& plan, const FrameInputs& inputs) {
   return Done{};
 }
 
+Status check_features(const Plan& plan, const FrameInputs& inputs) {
+  if (!inputs.features.empty() && inputs.features.size() < plan.features.size()) return wrong("too few feature values");
+  for (size_t i = 0; i < plan.features.size() && !inputs.features.empty(); ++i)
+    if (inputs.features[i] >= plan.features[i].values)
+      return wrong("feature `" + std::string(plan.features[i].name) + "` has no value " + std::to_string(inputs.features[i]));
+  for (const Pass& pass : plan.passes) {
+    if (pass.choice_count == 0) continue;
+    if (plan.pipeline_choices[pass.first_choice + selected_choice(plan, pass, inputs)] == kNone)
+      return wrong("the feature values given exclude each other in pass `" + std::string(pass.name) + "`");
+  }
+  return Done{};
+}
+
 Status check_semaphores(const GraphInstance::State& state, std::span<const SemaphoreUse> uses, std::string_view verb) {
   if (uses.size() > kMaxExternalSemaphores)
     return wrong("a frame " + std::string(verb) + " " + std::to_string(uses.size()) + " semaphores; at most " + std::to_string(kMaxExternalSemaphores));
@@ -51,10 +64,20 @@ Status check_semaphores(const GraphInstance::State& state, std::span<const Semap
 
 }  // namespace
 
+uint32_t selected_choice(const Plan& plan, const Pass& pass, const FrameInputs& inputs) {
+  uint32_t selector = 0;
+  for (const Index index : plan.pass_features.subspan(pass.first_feature, pass.feature_count)) {
+    const Feature& feature = plan.features[index];
+    selector = selector * feature.values + (inputs.features.empty() ? feature.initial : inputs.features[index]);
+  }
+  return selector;
+}
+
 Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs) {
   const Plan& plan = state.context.plan;
   RG_TRY(check_imports(state, inputs));
   RG_TRY(check_params(plan, inputs));
+  RG_TRY(check_features(plan, inputs));
   if (!state.host_passes.empty() && inputs.callbacks == nullptr) return wrong("no callbacks");
   for (const Index pass : state.host_passes)
     if (inputs.callbacks[plan.passes[pass].host_slot] == nullptr) return wrong("pass `" + std::string(plan.passes[pass].name) + "` has no callback");

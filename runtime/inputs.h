@@ -8,6 +8,9 @@ namespace rg {
 // Sizes and presence of everything, against the plan. Nothing has happened where it fails.
 Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs);
 
+// The combination of feature values that `inputs` selects for `pass`; see Plan::pipeline_choices. Values are within their bounds.
+uint32_t selected_choice(const Plan& plan, const Pass& pass, const FrameInputs& inputs);
+
 // Puts imports into barriers, views and sets; copies parameters and updates into the slot's section of the ring.
 Status take_inputs(GraphInstance::State& state, const FrameInputs& inputs);
 

@@ -217,16 +217,39 @@ Result<VkPipeline> create_compute(const Context& context, const PassObjects& pas
   return handle;
 }
 
-Status create_pipeline(const Context& context, const Pass& pass, Shaders& shaders, PassObjects& out) {
-  const Pipeline& pipeline = context.plan.pipelines[pass.pipeline];
+Result<UniquePipeline> create_pipeline(const Context& context, const Pass& pass, Index index, Shaders& shaders, const PassObjects& out) {
+  const Pipeline& pipeline = context.plan.pipelines[index];
   const Result<Stages> stages = shader_stages(context, pipeline, shaders);
   if (!stages) return stages.error();
   const bool graphics = pass.rendering != kNone;
   const Result<VkPipeline> handle =
       graphics ? create_graphics(context, pipeline, context.plan.renderings[pass.rendering], out, *stages) : create_compute(context, out, *stages);
   if (!handle) return handle.error();
-  out.pipeline = UniquePipeline(context.vk(), context.device.device, *handle);
   name_object(context.device, VK_OBJECT_TYPE_PIPELINE, *handle, out.name);
+  return UniquePipeline(context.vk(), context.device.device, *handle);
+}
+
+// The pipeline of the pass, and those that other feature values choose; each once.
+Status create_pipelines(const Context& context, const Pass& pass, Shaders& shaders, PassObjects& out) {
+  std::vector<std::pair<Index, VkPipeline>> known = {{kNone, VK_NULL_HANDLE}};
+  const auto find = [&](Index index) -> Result<VkPipeline> {
+    for (const auto& [number, handle] : known)
+      if (number == index) return handle;
+    Result<UniquePipeline> made = create_pipeline(context, pass, index, shaders, out);
+    if (!made) return made.error();
+    known.emplace_back(index, made->get());
+    if (index == pass.pipeline)
+      out.pipeline = std::move(*made);
+    else
+      out.more_pipelines.push_back(std::move(*made));
+    return known.back().second;
+  };
+  if (const Result<VkPipeline> own = find(pass.pipeline); !own) return own.error();
+  for (const Index choice : context.plan.pipeline_choices.subspan(pass.first_choice, pass.choice_count)) {
+    const Result<VkPipeline> handle = find(choice);
+    if (!handle) return handle.error();
+    out.choices.push_back(*handle);
+  }
   return Done{};
 }
 
@@ -254,7 +277,7 @@ Status create_one(const Context& context, const Objects& objects, const Pass& pa
     out.set_layout = std::move(*layout);
   }
   RG_TRY(create_layout(context, objects, pass, out));
-  return pass.pipeline == kNone ? Status(Done{}) : create_pipeline(context, pass, shaders, out);
+  return pass.pipeline == kNone ? Status(Done{}) : create_pipelines(context, pass, shaders, out);
 }
 
 // By pass, so that recording compares numbers and not names.

@@ -316,6 +316,10 @@ struct Pass {
   Index first_params = 0, params_count = 0;  // dynamic offsets, in binding order: Plan::pass_params (indices of Plan::params)
   uint32_t push_bytes = 0, push_stages = 0;
   Index engine_set = kNone;
+  // Which of its pipelines the pass binds is chosen every frame: Plan::pipeline_choices[first_choice + s], s counting the combinations of the values of
+  // its features (Plan::pass_features, indices of Plan::features), the first slowest. kNone there: the combination is excluded. No features: `pipeline`.
+  Index first_choice = 0, choice_count = 0;
+  Index first_feature = 0, feature_count = 0;
   Work work = {};
   Index host_slot = kNone;                // position of the callback in the generated recorder
   Index first_mip_limit = 0, mip_limit_count = 0;
@@ -344,6 +348,7 @@ struct Batch {  // one VkSubmitInfo2; the batches of a plan are listed in a lega
   Index first_wait = 0, wait_count = 0;
   Index first_signal = 0, signal_count = 0;
 };
+struct Feature { std::string_view name = {}; uint32_t values = 2, initial = 0; };  // that shaders are chosen by
 struct Culled { std::string_view pass = {}, reason = {}; };
 
 struct Plan {
@@ -383,6 +388,9 @@ struct Plan {
   std::span<const Sampler> samplers = {};
   std::span<const Params> params = {};
   std::span<const Index> pass_params = {};
+  std::span<const Feature> features = {};
+  std::span<const Index> pass_features = {};
+  std::span<const Index> pipeline_choices = {};  // indices of pipelines
   std::span<const Transfer> transfers = {};
   std::span<const MipLimit> mip_limits = {};
   std::span<const EngineSet> engine_sets = {};

@@ -171,11 +171,29 @@ uint32_t dynamic_bindings(const Plan& plan, const Pass& pass) {
   return count;
 }
 
+// Of the values of the features of a pass; 0 without features. Saturates well above what a table holds.
+uint64_t combinations(const Plan& plan, const Pass& pass) {
+  uint64_t product = pass.feature_count == 0 ? 0 : 1;
+  for (const Index feature : plan.pass_features.subspan(pass.first_feature, pass.feature_count))
+    product = std::min<uint64_t>(product * plan.features[feature].values, uint64_t{1} << 32);
+  return product;
+}
+
+void check_features(const Plan& plan, Checker& c) {
+  for (size_t i = 0; i < plan.features.size(); ++i)
+    c.that(plan.features[i].values >= 1 && plan.features[i].initial < plan.features[i].values, "feature", i, "initial value");
+  for (size_t i = 0; i < plan.pass_features.size(); ++i) c.index(plan.pass_features[i], plan.features.size(), "pass feature", i, "feature");
+  for (size_t i = 0; i < plan.pipeline_choices.size(); ++i) c.optional(plan.pipeline_choices[i], plan.pipelines.size(), "choice", i, "pipeline");
+}
+
 void check_pass(const Plan& plan, size_t i, Checker& c) {
   const Pass& pass = plan.passes[i];
   c.range(pass.first_access, pass.access_count, plan.accesses.size(), "pass", i, "accesses");
   c.optional(pass.rendering, plan.renderings.size(), "pass", i, "rendering");
   c.optional(pass.pipeline, plan.pipelines.size(), "pass", i, "pipeline");
+  c.range(pass.first_choice, pass.choice_count, plan.pipeline_choices.size(), "pass", i, "pipeline choices");
+  c.range(pass.first_feature, pass.feature_count, plan.pass_features.size(), "pass", i, "features");
+  if (c.ok()) c.that(pass.choice_count == combinations(plan, pass), "pass", i, "pipeline choices are not the combinations of its features");
   c.range(pass.first_binding, pass.binding_count, plan.bindings.size(), "pass", i, "bindings");
   c.range(pass.first_params, pass.params_count, plan.pass_params.size(), "pass", i, "parameter blocks");
   c.optional(pass.engine_set, plan.engine_sets.size(), "pass", i, "engine set");
@@ -211,6 +229,7 @@ Status check_plan(const Plan& plan) {
   check_aliases(plan, checker);
   check_renderings(plan, checker);
   check_pipelines(plan, checker);
+  check_features(plan, checker);
   check_small_tables(plan, checker);
   for (size_t i = 0; i < plan.passes.size(); ++i) check_pass(plan, i, checker);
   plan_check::check_schedule(plan, checker);

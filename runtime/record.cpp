@@ -1,6 +1,7 @@
 #include "runtime/record.h"
 
 #include "runtime/barriers.h"
+#include "runtime/inputs.h"
 #include "runtime/queues.h"
 #include "runtime/render_pass.h"
 #include "runtime/resolve.h"
@@ -130,11 +131,21 @@ void end_attachments(const FrameRecording& r, const PassRow& row) {
   row.classic ? r.vk.CmdEndRenderPass(r.commands) : r.vk.CmdEndRendering(r.commands);
 }
 
+// The one that the features of the frame select, where they do.
+void bind_pipeline(const FrameRecording& r, Index index, const PassRow& row, const PassObjects& objects, PassTable& table) {
+  VkPipeline pipeline = row.pipeline;
+  if (!objects.choices.empty()) {
+    pipeline = objects.choices[selected_choice(r.state.context.plan, r.state.context.plan.passes[index], r.inputs)];
+    table.info.pipeline = pipeline;
+  }
+  r.vk.CmdBindPipeline(r.commands, objects.bind_point, pipeline);
+}
+
 void record_body(const FrameRecording& r, Index index, const PassRow& row) {
   PassTable& table = r.state.sized->passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
   if (row.has_rendering) begin_attachments(r, row, table);
-  if (row.pipeline != VK_NULL_HANDLE) r.vk.CmdBindPipeline(r.commands, objects.bind_point, row.pipeline);
+  if (row.pipeline != VK_NULL_HANDLE) bind_pipeline(r, index, row, objects, table);
   if (row.has_engine_set) bind_engine_set(r, r.state.context.plan.passes[index], objects);
   const VkDescriptorSet set = row.has_set ? bind_pass_set(r, objects, table) : VkDescriptorSet(VK_NULL_HANDLE);
   if (row.work == WorkKind::host)

@@ -129,6 +129,7 @@ struct Binder {
   const dsl::Program& program;
   const dsl::Graph& graph;
   const ShaderBundle& bundle;
+  size_t configuration;
   std::map<uint32_t, Index> plan_resource;  // by program resource
   std::map<size_t, Index> plan_shader;      // by bundle shader
 };
@@ -212,14 +213,13 @@ Index add_shader(Binder& b, size_t shader) {
   return at->second;
 }
 
-Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const PassShaders& shaders) {
-  if (shaders.shaders.empty()) return kNone;
+Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const std::vector<size_t>& shaders) {
   Pipeline pipeline;
   pipeline.name = b.plan.passes[pass_index].name;
   pipeline.pass = pass_index;
   pipeline.first_shader = static_cast<Index>(b.plan.pipeline_shaders.size());
-  for (const size_t shader : shaders.shaders) b.plan.pipeline_shaders.push_back(add_shader(b, shader));
-  pipeline.shader_count = static_cast<uint32_t>(shaders.shaders.size());
+  for (const size_t shader : shaders) b.plan.pipeline_shaders.push_back(add_shader(b, shader));
+  pipeline.shader_count = static_cast<uint32_t>(shaders.size());
   if (source.kind == dsl::PassKind::raster) {
     pipeline.raster = raster_state(b.program, source);
     pipeline.first_blend = static_cast<Index>(b.plan.blends.size());
@@ -232,6 +232,41 @@ Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const P
   return static_cast<Index>(b.plan.pipelines.size() - 1);
 }
 
+// The feature's row in Plan::features.
+Index add_feature(Binder& b, const dsl::Feature& feature) {
+  const auto same = [&](const Feature& row) { return row.name == feature.name; };
+  const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
+  if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
+  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial});
+  return static_cast<Index>(b.plan.features.size() - 1);
+}
+
+// A pipeline for every combination of the features that shaders are selected by; equal ones once.
+void add_pipelines(Binder& b, Index pass_index, const dsl::Pass& source, const PassShaders& shaders) {
+  if (b.configuration >= shaders.variants.size() || shaders.variants[b.configuration].empty()) return;
+  const auto& selected = shaders.variants[b.configuration];
+  std::map<std::vector<size_t>, Index> known = {{{}, kNone}};
+  std::vector<Index> choices;
+  for (const std::vector<size_t>& each : selected) {
+    const auto found = known.find(each);
+    choices.push_back(found != known.end() ? found->second : known.emplace(each, add_pipeline(b, pass_index, source, each)).first->second);
+  }
+  Pass& pass = b.plan.passes[pass_index];
+  pass.pipeline = choices.front();
+  if (choices.size() == 1) return;
+  pass.first_choice = static_cast<Index>(b.plan.pipeline_choices.size());
+  pass.choice_count = static_cast<uint32_t>(choices.size());
+  pass.first_feature = static_cast<Index>(b.plan.pass_features.size());
+  for (const size_t feature : shaders.selecting[b.configuration])
+    b.plan.pass_features.push_back(add_feature(b, b.program.features[source.features[feature].feature]));
+  pass.feature_count = static_cast<uint32_t>(b.plan.pass_features.size()) - pass.first_feature;
+  uint32_t initial = 0;
+  for (const Index row : std::span(b.plan.pass_features).subspan(pass.first_feature))
+    initial = initial * b.plan.features[row].values + b.plan.features[row].initial;
+  if (choices[initial] != kNone) pass.pipeline = choices[initial];
+  b.plan.pipeline_choices.insert(b.plan.pipeline_choices.end(), choices.begin(), choices.end());
+}
+
 Index engine_set_index(const dsl::Program& program, const dsl::Pass& pass) {
   const dsl::EngineSet* set = engine_set_of(program, pass);
   return set == nullptr ? kNone : static_cast<Index>(set - program.engine_sets.rows.data());
@@ -241,13 +276,14 @@ void bind_pass(Binder& b, Index index) {
   Pass& pass = b.plan.passes[index];
   pass.pipeline = pass.engine_set = kNone;
   pass.first_binding = pass.binding_count = pass.first_params = pass.params_count = pass.push_bytes = pass.push_stages = 0;
+  pass.first_choice = pass.choice_count = pass.first_feature = pass.feature_count = 0;
   const uint32_t program_pass = b.plan.program_pass[index];
   // A clear in front of a pass may name that pass as its origin, but runs none of its shaders.
   if (program_pass == kNone || pass.kind == PassKind::transfer || pass.kind == PassKind::host) return;
   const dsl::Pass& source = b.graph.passes.rows[program_pass];
   const PassShaders& shaders = b.bundle.passes[program_pass];
   add_bindings(b, pass, source, shaders);
-  pass.pipeline = add_pipeline(b, index, source, shaders);
+  add_pipelines(b, index, source, shaders);
   pass.engine_set = engine_set_index(b.program, source);
   if (!source.draw.per_draw.valid()) return;
   pass.push_bytes = b.program.structs[source.draw.per_draw].size430;
@@ -265,6 +301,9 @@ void clear_tables(PlanData& plan) {
   plan.samplers.clear();
   plan.params.clear();
   plan.pass_params.clear();
+  plan.features.clear();
+  plan.pass_features.clear();
+  plan.pipeline_choices.clear();
   plan.engine_sets.clear();
 }
 
@@ -275,11 +314,12 @@ SetRole set_role(uint32_t set) {
 
 }  // namespace
 
-void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle) {
+void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle,
+                    size_t configuration) {
   const dsl::Graph& graph = program.graphs[graph_id];
   RG_CHECK(plan.program_pass.size() == plan.passes.size(), "the plan does not say which pass of the program each pass is");
   clear_tables(plan);
-  Binder b{plan, program, graph, bundle, {}, {}};
+  Binder b{plan, program, graph, bundle, configuration, {}, {}};
   for (uint32_t i = 0; i < plan.program_resource.size(); ++i) b.plan_resource.emplace(plan.program_resource[i], i);
   for (const dsl::Sampler& sampler : program.samplers) plan.samplers.push_back(convert(sampler));
   for (const dsl::EngineSet& set : program.engine_sets) plan.engine_sets.push_back({intern(set.name), set_role(set.set)});

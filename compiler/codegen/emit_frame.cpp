@@ -14,6 +14,23 @@ void member_struct(CppWriter& out, const char* name, const char* what, const std
   out.line("};").line();
 }
 
+void features(CppWriter& out, const std::vector<ApiFeature>& list) {
+  for (const ApiFeature& feature : list) {
+    if (feature.values.empty()) continue;
+    std::string values;
+    for (const std::string& value : feature.values) values += (values.empty() ? "" : ", ") + value;
+    out.line("enum class " + feature.type + " : uint32_t { " + values + " };");
+  }
+  if (list.empty()) return;
+  out.line("// Which variants of shaders this frame runs.");
+  out.line("struct Features {");
+  for (const ApiFeature& feature : list) {
+    const std::string initial = feature.values.empty() ? (feature.initial ? "true" : "false") : feature.type + "::" + feature.values[feature.initial];
+    out.line("  " + feature.type + " " + feature.name + " = " + initial + ";" + behind(feature.comment));
+  }
+  out.line("};").line();
+}
+
 std::string size_initial(const ApiExtent& extent) {
   std::string text = "{";
   for (uint32_t axis = 0; axis < extent.axes; ++axis) text += (axis > 0 ? ", " : "") + std::to_string(extent.initial[axis]);
@@ -87,6 +104,7 @@ std::vector<Argument> arguments(const FrameApi& api) {
   if (!api.engine_sets.empty()) list.push_back({"EngineSets", "engine_sets"});
   if (!api.updates.empty()) list.push_back({"Updates", "updates"});
   if (!api.conditions.empty()) list.push_back({"Conditions", "conditions"});
+  if (!api.features.empty()) list.push_back({"Features", "features"});
   return list;
 }
 
@@ -201,6 +219,13 @@ void rows(CppWriter& out, const std::string& type, const char* from, const char*
   out.line(std::string("  inputs.") + name + " = " + name + "_rows;");
 }
 
+void feature_rows(CppWriter& out, const std::vector<ApiFeature>& list) {
+  out.line("  const uint32_t feature_rows[] = {");
+  for (const ApiFeature& feature : list) out.line("      static_cast<uint32_t>(features." + feature.name + "),");
+  out.line("  };");
+  out.line("  inputs.features = feature_rows;");
+}
+
 void submit(CppWriter& out, const FrameApi& api) {
   out.call("rg::Status " + api.class_name + "::submit", parameters(api, {"const rg::RecordFunction* callbacks", "void* recorder"}), " {");
   out.line("  rg::FrameInputs inputs;");
@@ -210,6 +235,7 @@ void submit(CppWriter& out, const FrameApi& api) {
   if (!api.params.empty()) rows(out, "std::span<const std::byte>", "params", "params", api.params, "rg::bytes_of(", ")");
   if (!api.engine_sets.empty()) rows(out, "VkDescriptorSet", "engine_sets", "engine_sets", api.engine_sets, "", ".value");
   if (!api.updates.empty()) rows(out, "std::span<const std::byte>", "updates", "updates", api.updates, "", "");
+  if (!api.features.empty()) feature_rows(out, api.features);
   for (size_t i = 0; i < api.conditions.size(); ++i)
     out.line("  if (conditions." + api.conditions[i].name + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
   out.line("  return instance_.execute(inputs);");
@@ -237,6 +263,7 @@ std::string emit_declarations(const FrameApi& api, const FramePlan& plan) {
   member_struct(out, "EngineSets", "Descriptor sets the engine owns.", api.engine_sets, "");
   member_struct(out, "Updates", "Bytes that update statements copy.", api.updates, " = {}");
   member_struct(out, "Conditions", "Latched when the frame is recorded.", api.conditions, " = false");
+  features(out, api.features);
   recorder(out, api);
   out.line("const rg::Plan& plan();").line();
   figures(out, plan);

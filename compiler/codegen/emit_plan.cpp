@@ -182,6 +182,8 @@ void PlanEmitter::passes() {
     slice(row, "first_params", p.first_params, "params_count", p.params_count);
     row.number("push_bytes", p.push_bytes).number("push_stages", p.push_stages);
     index(row, "engine_set", p.engine_set);
+    slice(row, "first_choice", p.first_choice, "choice_count", p.choice_count);
+    slice(row, "first_feature", p.first_feature, "feature_count", p.feature_count);
     row.nested("work", work_row(p.work, ref(p.work.arguments), ref(p.work.counts)));
     index(row, "host_slot", p.host_slot);
     slice(row, "first_mip_limit", p.first_mip_limit, "mip_limit_count", p.mip_limit_count);
@@ -270,6 +272,9 @@ void PlanEmitter::plan() {
   RG_TABLE(samplers, kSamplers);
   RG_TABLE(params, kParams);
   RG_TABLE(pass_params, kPassParams);
+  RG_TABLE(features, kFeatures);
+  RG_TABLE(pass_features, kPassFeatures);
+  RG_TABLE(pipeline_choices, kPipelineChoices);
   RG_TABLE(transfers, kTransfers);
   RG_TABLE(mip_limits, kMipLimits);
   RG_TABLE(engine_sets, kEngineSets);
@@ -296,6 +301,10 @@ std::string PlanEmitter::run() {
   for (const std::string_view condition : plan_.conditions) conditions.push_back(cpp_string(condition));
   bindings();
   list(out_, "Index", "kPassParams", numbers(plan_.pass_params));
+  table("Feature", "kFeatures", plan_.features,
+        [](const Feature& f, size_t) { return Row().string("name", f.name).number("values", f.values, 2).number("initial", f.initial); });
+  list(out_, "Index", "kPassFeatures", numbers(plan_.pass_features));
+  list(out_, "Index", "kPipelineChoices", numbers(plan_.pipeline_choices));
   list(out_, "std::string_view", "kConditions", conditions);
   transfers();
   plan();

@@ -101,6 +101,25 @@ std::vector<ApiPass> collect_passes(const Source& s, const PlanNames& names) {
   return passes;
 }
 
+// `bool fog = true`, or `Shading shading = Shading::tiled` with an enum of its own.
+std::vector<ApiFeature> collect_features(const Source& s) {
+  std::vector<std::string> names;
+  for (const Feature& feature : s.plan.features) names.push_back(cpp_name(feature.name));
+  names = distinct(std::move(names));
+  std::vector<ApiFeature> features;
+  for (size_t i = 0; i < names.size(); ++i) {
+    const auto same = [&](const dsl::Feature& feature) { return feature.name == s.plan.features[i].name; };
+    const dsl::Feature& source = *std::find_if(s.program.features.begin(), s.program.features.end(), same);
+    const bool is_bool = source.values == std::vector<std::string>{"off", "on"};
+    ApiFeature row{names[i], is_bool ? "bool" : cpp_type_name(names[i]), {}, source.initial, s.where(source.span)};
+    if (!is_bool)
+      for (const std::string& value : source.values) row.values.push_back(cpp_name(value));
+    row.values = distinct(std::move(row.values));
+    features.push_back(std::move(row));
+  }
+  return features;
+}
+
 std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& names) {
   std::vector<ApiReadback> readbacks;
   for (size_t r = 0; r < s.plan.resources.size(); ++r) {
@@ -134,6 +153,7 @@ FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const F
   name_members(api.conditions);
   for (const EngineSet& set : frame.plan.engine_sets) api.engine_sets.push_back({std::string(set.name), "rg::Required<VkDescriptorSet>", ""});
   name_members(api.engine_sets);
+  api.features = collect_features(source);
   api.passes = collect_passes(source, api.names);
   api.readbacks = collect_readbacks(source, api.names);
   return api;

@@ -23,6 +23,12 @@ struct ApiPass {                                 // recorded by the host; by hos
   uint32_t push_stages = 0;
   bool raster = false, compute = false;
 };
+struct ApiFeature {  // that shaders are chosen by; without values: a bool
+  std::string name, type;
+  std::vector<std::string> values;
+  uint32_t initial = 0;
+  std::string comment;
+};
 struct ApiReadback {
   std::string name, resource, element, comment;
 };
@@ -32,6 +38,7 @@ struct FrameApi {
   PlanNames names;
   std::vector<ApiExtent> extents;
   std::vector<ApiMember> imports, params, updates, conditions, engine_sets;
+  std::vector<ApiFeature> features;  // by index of Plan::features
   std::vector<ApiPass> passes;
   std::vector<ApiReadback> readbacks;
 };
