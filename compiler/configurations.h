@@ -9,8 +9,11 @@
 
 namespace rg::compiler {
 
-// Every combination of values of the features that `graph` depends on, in counting order, the first feature slowest; other features
-// keep their initial value. `fixed` holds "NAME=VALUE" of features decided at build time. Reports unknown names and more than `limit` plans.
+constexpr uint32_t kFreeFeature = UINT32_MAX;  // no plan depends on it: shaders are selected by it when a frame is recorded
+
+// Every combination of values of the features that the passes and resources of `graph` depend on, in counting order, the first feature slowest.
+// Features that only shaders see are kFreeFeature, those that nothing sees keep their initial value. `fixed` holds "NAME=VALUE" of features decided
+// at build time. Reports unknown names and more than `limit` plans.
 //
 //   feature fog: bool   feature quality: { low, high }      fixed {"fog=on"}  ->  {1, 0} {1, 1}
 std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,

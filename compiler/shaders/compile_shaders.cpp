@@ -1,157 +1,130 @@
 #include <algorithm>
-#include <atomic>
 #include <map>
 #include <set>
-#include <thread>
 
-#include "compiler/shaders/agreement.h"
-#include "dsl/check_macro.h"
+#include "compiler/shaders/shader_jobs.h"
 
 namespace rg::compiler {
 namespace {
 
-// One distinct (path, stage, interface); loop instances of a pass usually share theirs.
-struct Job {
-  dsl::Stage stage = dsl::stage_compute;
-  std::string path;
-  std::string prelude;
-  const std::string* text = nullptr;
-};
-struct JobOutput {
-  std::vector<ShaderMessage> errors;
-  Reflection reflection;
-  ModuleUses uses;
-  Words words;
-};
-// Jobs of each pass, one a shader in stage order. An empty row: the pass has no shaders, or one could not be read.
-struct Work {
-  std::vector<Job> jobs;
-  std::vector<std::vector<size_t>> pass_jobs;
-  std::vector<std::vector<dsl::Shader>> pass_shaders;
-};
+// ---- one pass over all its configurations
 
-const std::string kFullscreenPath = "rgc/fullscreen.vert";
-const std::string kNoPrelude, kFullscreenText = kFullscreenVertexShader;
-
-std::vector<dsl::Shader> shaders_in_stage_order(const dsl::Pass& pass) {
-  std::vector<dsl::Shader> shaders = pass.shaders;
-  if (is_fullscreen(pass) && !shaders.empty()) shaders.push_back({dsl::stage_vertex, kFullscreenPath, shaders.front().span});
-  std::stable_sort(shaders.begin(), shaders.end(), [](const auto& a, const auto& b) { return a.stage < b.stage; });
-  return shaders;
+// Front-end jobs of a shader, each once.
+std::vector<size_t> distinct_jobs(const ShaderUse& use) {
+  std::vector<size_t> jobs;
+  for (const size_t job : use.jobs)
+    if (std::find(jobs.begin(), jobs.end(), job) == jobs.end()) jobs.push_back(job);
+  return jobs;
 }
 
-size_t add_job(Work& work, Job job) {
-  const auto same = [&](const Job& other) { return other.stage == job.stage && other.path == job.path && other.prelude == job.prelude; };
-  const auto found = std::find_if(work.jobs.begin(), work.jobs.end(), same);
-  if (found != work.jobs.end()) return static_cast<size_t>(found - work.jobs.begin());
-  work.jobs.push_back(std::move(job));
-  return work.jobs.size() - 1;
-}
-
-// The checker made the shader's path relative to the root folder.
-std::optional<Job> make_job(const PassContext& context, const dsl::Shader& shader, ShaderSources& sources, dsl::Diagnostics& diagnostics) {
-  if (shader.path == kFullscreenPath) return Job{shader.stage, kFullscreenPath, kNoPrelude, &kFullscreenText};
-  const auto path = resolve_path("", shader.path);
-  if (!path) {
-    diagnostics.report(dsl::DiagnosticKind::ShaderNotReadable, shader.span, {shader.path, "it lies outside the root file's folder"});
-    return std::nullopt;
+void merge(Reflection& all, const Reflection& more) {
+  for (const ReflectedBinding& binding : more.bindings) {
+    const auto same = [&](const ReflectedBinding& b) { return b.set == binding.set && b.binding == binding.binding && b.name == binding.name; };
+    const auto found = std::find_if(all.bindings.begin(), all.bindings.end(), same);
+    if (found == all.bindings.end())
+      all.bindings.push_back(binding);
+    else
+      found->statically_used |= binding.statically_used;
   }
-  const std::string* source = sources.find(*path);
-  if (source == nullptr) {
-    diagnostics.report(dsl::DiagnosticKind::ShaderNotReadable, shader.span, {shader.path, "no such file, or no permission"});
-    return std::nullopt;
-  }
-  return Job{shader.stage, *path, text(make_prelude(context.program, context.graph, context.pass, shader.stage)), source};
+  for (const ReflectedStruct& record : more.structs)
+    if (std::find(all.structs.begin(), all.structs.end(), record) == all.structs.end()) all.structs.push_back(record);
+  all.push_constants_used |= more.push_constants_used;
 }
 
-Work collect_work(const dsl::Program& program, const dsl::Graph& graph, ShaderSources& sources,
-                  dsl::Diagnostics& diagnostics) {
-  Work work;
-  for (const dsl::Pass& pass : graph.passes) {
-    check_stages(pass, diagnostics);
-    std::vector<size_t> jobs;
-    std::vector<dsl::Shader> shaders = shaders_in_stage_order(pass);
-    for (const dsl::Shader& shader : shaders)
-      if (auto job = make_job({program, graph, pass}, shader, sources, diagnostics)) jobs.push_back(add_job(work, std::move(*job)));
-    if (jobs.size() != shaders.size()) jobs.clear();
-    work.pass_jobs.push_back(std::move(jobs));
-    work.pass_shaders.push_back(std::move(shaders));
-  }
-  return work;
+void merge(Use& all, const Use& more) {
+  all.touched |= more.touched;
+  all.reads |= more.reads;
+  all.writes |= more.writes;
+  all.atomics |= more.atomics;
 }
 
-JobOutput run_job(const Job& job, ShaderSources& sources) {
-  FrontEndOutput front_end = compile_glsl(job.stage, job.prelude, job.path, *job.text, sources);
-  JobOutput output;
-  output.errors = std::move(front_end.errors);
-  if (!output.errors.empty()) return output;
-  const std::string problem = validate_spirv(front_end.words);
-  if (!problem.empty()) {
-    output.errors.push_back({job.path, 1, "SPIR-V is not valid: " + problem});
-    return output;
-  }
-  output.reflection = reflect(front_end.words);
-  const Words optimised = optimise_spirv(front_end.words);
-  output.uses = find_uses(optimised);
-  output.words = strip_spirv(optimised);
-  RG_CHECK(validate_spirv(output.words).empty(), "optimised SPIR-V is not valid");
-  return output;
+void merge(ModuleUses& all, const ModuleUses& more) {
+  for (const auto& [place, use] : more.descriptors) merge(all.descriptors[place], use);
+  for (const auto& [location, use] : more.outputs) merge(all.outputs[location], use);
+  all.push_constants |= more.push_constants;
 }
 
-// Two workers take jobs in order; each result has its own place, so that the outcome does not depend on who was faster.
-std::vector<JobOutput> run_jobs(const std::vector<Job>& jobs, ShaderSources& sources) {
-  std::vector<JobOutput> outputs(jobs.size());
-  std::atomic<size_t> next = 0;
-  const auto work = [&] {
-    for (size_t i = next++; i < jobs.size(); i = next++) outputs[i] = run_job(jobs[i], sources);
-  };
-  std::thread other(work);
-  work();
-  other.join();
-  return outputs;
-}
-
-std::vector<StageOutput> stages_of_pass(const Work& work, size_t pass, const std::vector<JobOutput>& outputs) {
+// What the shaders of a pass do in any of its configurations.
+std::vector<StageOutput> stages_of_pass(const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results) {
   std::vector<StageOutput> stages;
-  for (size_t i = 0; i < work.pass_jobs[pass].size(); ++i) {
-    const size_t job = work.pass_jobs[pass][i];
-    if (work.jobs[job].path == kFullscreenPath) continue;
-    const dsl::Shader& shader = work.pass_shaders[pass][i];
-    stages.push_back({shader.stage, work.jobs[job].path, shader.span, outputs[job].reflection, outputs[job].uses});
+  for (const ShaderUse& use : uses) {
+    const std::vector<size_t> jobs = distinct_jobs(use);
+    if (is_generated_fullscreen(use) || jobs.empty()) continue;
+    StageOutput stage{use.shader.stage, use.path, use.shader.span, results[jobs[0]].reflection, results[jobs[0]].uses};
+    for (size_t i = 1; i < jobs.size(); ++i) {
+      merge(stage.reflection, results[jobs[i]].reflection);
+      merge(stage.uses, results[jobs[i]].uses);
+    }
+    stages.push_back(std::move(stage));
   }
   return stages;
 }
 
-// True if every shader of the pass compiled. A job's messages are reported for the first pass that uses it only.
-bool report_pass(const PassContext& context, const Work& work, size_t pass, const std::vector<JobOutput>& outputs, std::set<size_t>& reported,
-                 ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
+// Which values make a shader fail that compiles with others.
+void note_failing_features(const PassContext& context, const ShaderUse& use, const std::vector<FrontEndResult>& results,
+                           dsl::Diagnostics& diagnostics, size_t first_report) {
+  std::vector<bool> fails;
+  for (const size_t job : use.jobs) fails.push_back(!results[job].errors.empty());
+  const auto good = std::find(fails.begin(), fails.end(), false);
+  const auto smallest = smallest_failing_key(use.keys, fails);
+  if (good == fails.end() || !smallest || diagnostics.rows().size() == first_report) return;
+  dsl::Diagnostic last = diagnostics.rows().back();
+  last.note(dsl::DiagnosticKind::FailsWithFeatures, context.pass.span,
+            {key_text(context.pass, *smallest), key_text(context.pass, use.keys[static_cast<size_t>(good - fails.begin())])});
+  diagnostics.replace_last(std::move(last));
+}
+
+// True if every shader of the pass compiled. A job's messages are reported for the first pass that uses it only, and of a shader's jobs
+// only the first that fails: the others mostly say the same.
+bool report_pass(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results,
+                 std::set<size_t>& reported, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
   bool good = true;
-  for (size_t i = 0; i < work.pass_jobs[pass].size(); ++i) {
-    const size_t job = work.pass_jobs[pass][i];
-    if (outputs[job].errors.empty()) continue;
+  for (const ShaderUse& use : uses) {
+    const std::vector<size_t> jobs = distinct_jobs(use);
+    const auto failed = std::find_if(jobs.begin(), jobs.end(), [&](size_t job) { return !results[job].errors.empty(); });
+    if (failed == jobs.end()) continue;
     good = false;
-    if (!reported.insert(job).second) continue;
-    const dsl::Shader& shader = work.pass_shaders[pass][i];
-    const Prelude prelude = make_prelude(context.program, context.graph, context.pass, shader.stage);
-    for (const ShaderMessage& message : outputs[job].errors) report_message(context, shader, prelude, message, places, diagnostics);
+    const bool seen = reported.contains(*failed);
+    for (const size_t job : jobs)
+      if (!results[job].errors.empty()) reported.insert(job);
+    if (seen) continue;
+    const size_t before = diagnostics.rows().size();
+    const auto row = static_cast<size_t>(std::find(use.jobs.begin(), use.jobs.end(), *failed) - use.jobs.begin());
+    const Prelude prelude = make_prelude(context.program, context.graph, context.pass, use.shader.stage, use.keys[row]);
+    for (const ShaderMessage& message : results[*failed].errors) report_message(context, use.shader, prelude, message, places, diagnostics);
+    note_failing_features(context, use, results, diagnostics, before);
   }
   return good;
+}
+
+// A feature that no shader of its pass depends on, in the preprocessor or as a constant.
+void check_features(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results,
+                    dsl::Diagnostics& diagnostics) {
+  for (size_t i = 0; i < context.pass.features.size(); ++i) {
+    const dsl::ShaderFeature& feature = context.pass.features[i];
+    bool used = !feature.feature.valid();
+    for (const ShaderUse& use : uses)
+      for (size_t row = 0; row < use.jobs.size(); ++row)
+        used = used || use.keys[row][i] || results[use.jobs[row]].numbers.contains(kFirstFeatureConstant + static_cast<uint32_t>(i));
+    if (!used) diagnostics.report(dsl::DiagnosticKind::FeatureNotUsed, feature.span, {feature.name, context.pass.name});
+  }
 }
 
 // ---- the bundle
 
 class BundleBuilder {
  public:
-  size_t add(const Job& job, const Words& words) {
-    for (size_t i = 0; i < bundle.shaders.size(); ++i)
-      if (bundle.shaders[i].stage == job.stage && bundle.shaders[i].words == words) return i;
-    const size_t number = ++uses_of_name_[job.path];
-    bundle.shaders.push_back({number == 1 ? job.path : job.path + "." + std::to_string(number), job.stage, words});
+  size_t add(dsl::Stage stage, const std::string& path, const Words& words) {
+    const auto [at, is_new] = known_.try_emplace({stage, words}, bundle.shaders.size());
+    if (!is_new) return at->second;
+    const size_t number = ++uses_of_name_[path];
+    bundle.shaders.push_back({number == 1 ? path : path + "." + std::to_string(number), stage, words});
     return bundle.shaders.size() - 1;
   }
   ShaderBundle bundle;
 
  private:
+  std::map<std::pair<dsl::Stage, Words>, size_t> known_;
   std::map<std::string, size_t> uses_of_name_;
 };
 
@@ -197,26 +170,128 @@ PassShaders pass_shaders(const PassContext& context, const std::vector<StageOutp
   return result;
 }
 
+// ---- specialisations
+
+constexpr size_t kNone = SIZE_MAX;
+
+ConstantValues constants_of(const VariantRow& row, const std::set<uint32_t>& numbers) {
+  ConstantValues values;
+  for (size_t i = 0; i < row.values.size(); ++i)
+    if (numbers.contains(kFirstFeatureConstant + static_cast<uint32_t>(i))) values.emplace_back(kFirstFeatureConstant + i, row.values[i]);
+  return values;
+}
+
+// Jobs of all live variants, each once, and which of them a shader of a pass takes in a row.
+struct Specialisations {
+  std::vector<SpecialiseJob> jobs;
+  std::vector<std::vector<std::vector<size_t>>> rows;  // [pass][shader][row], kNone where the row is not live
+};
+
+Specialisations collect_specialisations(const VariantSpace& space, const ShaderWork& work, const std::vector<FrontEndResult>& results,
+                                        const std::vector<bool>& good) {
+  Specialisations all;
+  std::map<SpecialiseJob, size_t> known;
+  all.rows.resize(work.passes.size());
+  for (size_t p = 0; p < work.passes.size(); ++p) {
+    if (!good[p]) continue;
+    for (const ShaderUse& use : work.passes[p]) {
+      std::vector<size_t> jobs(space.passes[p].size(), kNone);
+      for (size_t r = 0; r < jobs.size(); ++r) {
+        if (!space.passes[p][r].live) continue;
+        SpecialiseJob job{use.jobs[r], constants_of(space.passes[p][r], results[use.jobs[r]].numbers)};
+        const auto [at, is_new] = known.try_emplace(job, all.jobs.size());
+        if (is_new) all.jobs.push_back(std::move(job));
+        jobs[r] = at->second;
+      }
+      all.rows[p].push_back(std::move(jobs));
+    }
+  }
+  return all;
+}
+
+VariantCount count_variants(const PassContext& context, const ShaderUse& use, const std::vector<VariantRow>& rows, const std::vector<size_t>& jobs,
+                            const std::vector<size_t>& shaders) {
+  VariantCount count{context.pass.name, use.path};
+  std::set<std::vector<uint32_t>> feasible, reachable;
+  for (const VariantRow& row : rows) {
+    feasible.insert(row.values);
+    if (row.live) reachable.insert(row.values);
+  }
+  std::set<size_t> distinct(jobs.begin(), jobs.end()), modules(shaders.begin(), shaders.end());
+  distinct.erase(kNone);
+  modules.erase(kNone);
+  count.declared = combinations(context.program, context.pass);
+  count.infeasible = count.declared - feasible.size();
+  count.unreachable = feasible.size() - reachable.size();
+  count.indifferent = reachable.size() - distinct.size();
+  count.equal = distinct.size() - modules.size();
+  count.built = modules.size();
+  count.front_ends = distinct_jobs(use).size();
+  return count;
+}
+
+void put(PassShaders& target, const VariantRow& row, size_t shader) {
+  auto& selectors = target.variants[row.configuration];
+  if (selectors.size() <= row.selector) selectors.resize(row.selector + 1);
+  selectors[row.selector].push_back(shader);
+}
+
+void add_variants(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<VariantRow>& rows,
+                  const std::vector<std::vector<size_t>>& jobs, const std::vector<Words>& words, PassShaders& target, BundleBuilder& builder) {
+  for (size_t u = 0; u < jobs.size(); ++u) {
+    std::vector<size_t> shaders(rows.size(), kNone);
+    for (size_t r = 0; r < rows.size(); ++r) {
+      if (jobs[u][r] == kNone) continue;
+      shaders[r] = builder.add(uses[u].shader.stage, uses[u].path, words[jobs[u][r]]);
+      put(target, rows[r], shaders[r]);
+    }
+    if (!context.pass.features.empty() && !is_generated_fullscreen(uses[u]))
+      builder.bundle.counts.push_back(count_variants(context, uses[u], rows, jobs[u], shaders));
+  }
+  for (size_t r = rows.size(); r-- > 0;)
+    if (rows[r].live && !jobs.empty()) target.shaders = target.variants[rows[r].configuration][rows[r].selector];
+}
+
 }  // namespace
 
-ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id, const ReadFile& read, dsl::SourceFiles& files,
-                             dsl::Diagnostics& diagnostics) {
+VariantSpace initial_variants(const dsl::Program& program, dsl::GraphId graph) {
+  VariantSpace space;
+  for (const dsl::Pass& pass : program.graphs[graph].passes) {
+    VariantRow row;
+    for (const dsl::ShaderFeature& feature : pass.features)
+      row.values.push_back(feature.feature.valid() ? program.features[feature.feature].initial : feature.value);
+    space.passes.push_back({std::move(row)});
+  }
+  return space;
+}
+
+ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id, const VariantSpace& space, const ReadFile& read,
+                             dsl::SourceFiles& files, const ShaderOptions& options, dsl::Diagnostics& diagnostics) {
   const dsl::Graph& graph = program.graphs[graph_id];
   ShaderSources sources(read);
   ShaderPlaces places(files, sources);
-  const Work work = collect_work(program, graph, sources, diagnostics);
-  const std::vector<JobOutput> outputs = run_jobs(work.jobs, sources);
+  const ShaderWork work = collect_work(program, graph, space, sources, diagnostics);
+  const std::vector<FrontEndResult> results = run_front_ends(work.jobs, sources, options);
 
   BundleBuilder builder;
   std::set<size_t> reported;
+  std::vector<bool> good;
   for (size_t i = 0; i < graph.passes.size(); ++i) {
-    const PassContext context{program, graph, graph.passes[dsl::PassId{i}]};
-    const bool good = report_pass(context, work, i, outputs, reported, places, diagnostics);
-    const std::vector<StageOutput> stages = good ? stages_of_pass(work, i, outputs) : std::vector<StageOutput>{};
+    const PassContext context{program, graph, graph.passes.rows[i]};
+    good.push_back(report_pass(context, work.passes[i], results, reported, places, diagnostics));
+    const std::vector<StageOutput> stages = good[i] ? stages_of_pass(work.passes[i], results) : std::vector<StageOutput>{};
     if (!stages.empty()) check_agreement(context, stages, places, diagnostics);
+    if (!stages.empty()) check_features(context, work.passes[i], results, diagnostics);
     builder.bundle.passes.push_back(pass_shaders(context, stages));
-    if (!good) continue;
-    for (const size_t job : work.pass_jobs[i]) builder.bundle.passes.back().shaders.push_back(builder.add(work.jobs[job], outputs[job].words));
+  }
+
+  const Specialisations all = collect_specialisations(space, work, results, good);
+  const std::vector<Words> words = specialise(all.jobs, results, options);
+  for (size_t i = 0; i < graph.passes.size(); ++i) {
+    PassShaders& target = builder.bundle.passes[i];
+    target.variants.resize(space.configurations);
+    target.selecting = space.selecting.empty() ? std::vector<std::vector<size_t>>(space.configurations) : space.selecting[i];
+    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], words, target, builder);
   }
   builder.bundle.read_files = sources.readable_paths();
   return std::move(builder.bundle);

@@ -52,6 +52,25 @@ void add_structs(const dsl::Program& program, Prelude& prelude) {
   for (size_t i = 0; i < program.structs.size(); ++i) add_struct(program, dsl::StructId{i}, done, prelude);
 }
 
+// ---- features
+
+// layout(constant_id = 1000) const bool fog = true;
+void add_feature(const dsl::ShaderFeature& feature, size_t index, std::optional<uint32_t> fixed, Prelude& prelude) {
+  const bool is_bool = feature.values.empty();
+  const uint32_t value = fixed.value_or(is_bool ? 1 : 0);
+  const std::string name = last_part(feature.name);
+  const std::string text = is_bool ? (value != 0 ? "true" : "false") : std::to_string(value) + "u";
+  const std::string layout = fixed ? "" : "layout(constant_id = " + std::to_string(kFirstFeatureConstant + index) + ") ";
+  for (size_t i = 0; i < feature.values.size(); ++i)
+    prelude.push_back({"const uint " + name + "_" + feature.values[i] + " = " + std::to_string(i) + "u;", feature.span});
+  if (fixed) prelude.push_back({"#define " + feature_macro(feature) + " " + std::to_string(value), feature.span});
+  prelude.push_back({layout + "const " + (is_bool ? "bool " : "uint ") + name + " = " + text + ";", feature.span});
+}
+
+void add_features(const dsl::Pass& pass, const FixedFeatures& fixed, Prelude& prelude) {
+  for (size_t i = 0; i < pass.features.size(); ++i) add_feature(pass.features[i], i, i < fixed.size() ? fixed[i] : std::nullopt, prelude);
+}
+
 // ---- bindings of set 1
 
 std::string view_suffix(const ViewShape& view, bool multisampled) {
@@ -238,16 +257,20 @@ std::vector<std::string> engine_set_declarations(const dsl::EngineSet& set) {
   return declarations;
 }
 
-Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage) {
+std::string feature_macro(const dsl::ShaderFeature& feature) { return "FEATURE_" + last_part(feature.name); }
+
+Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage, const FixedFeatures& fixed) {
   Prelude prelude;
   for (const char* line : kHeader) prelude.push_back({line, {}});
   add_constants(program, prelude);
   add_structs(program, prelude);
+  add_features(pass, fixed, prelude);
   if (const dsl::EngineSet* set = engine_set_of(program, pass))
     for (std::string& declaration : engine_set_declarations(*set)) prelude.push_back({std::move(declaration), set->span});
   for (const InterfaceBinding& binding : pass_bindings(program, graph, pass))
     prelude.push_back({binding_text(program, graph, pass, binding), binding.span});
   add_stage_interface(program, graph, pass, stage, prelude);
+  for (const std::string& line : pass.interface_lines) prelude.push_back({line, pass.span});
   return prelude;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +42,13 @@ struct PreludeLine {
   dsl::Span origin;
 };
 using Prelude = std::vector<PreludeLine>;
-Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage);
+// The number of the specialisation constant of Pass::features[i] is this plus i.
+constexpr uint32_t kFirstFeatureConstant = 1000;
+// `fixed`, by Pass::features: the value of a feature that the preprocessor sees; none: a specialisation constant. Empty: all of them.
+using FixedFeatures = std::vector<std::optional<uint32_t>>;
+Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage, const FixedFeatures& fixed = {});
+// The name of a feature in preprocessor lines: FEATURE_fog is 0 or 1, or the number of its value.
+std::string feature_macro(const dsl::ShaderFeature& feature);
 std::string text(const Prelude& prelude);
 
 // The engine set `pass.bind` names, or null.

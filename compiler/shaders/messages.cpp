@@ -37,6 +37,8 @@ std::string suggestion(const PassContext& context, const std::string& name) {
       return "read " + resource.name + (resource.kind == dsl::ResourceKind::image ? " as sampled" : " as storage");
   for (const dsl::Params& params : context.graph.params)
     if (!params.pass.valid() && last_part(params.name) == name) return "params " + params.name;
+  for (const dsl::Feature& feature : context.program.features)
+    if (last_part(feature.name) == name) return "features " + feature.name;
   return "";
 }
 

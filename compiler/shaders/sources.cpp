@@ -15,9 +15,15 @@ std::string folder_of(const std::string& path) { return fs::path(path).parent_pa
 
 const std::string* ShaderSources::find(const std::string& path) {
   const std::lock_guard lock(mutex_);
+  if (const auto own = own_texts_.find(path); own != own_texts_.end()) return &own->second;
   auto [at, is_new] = texts_.try_emplace(path);
   if (is_new) at->second = read_(path);
   return at->second ? &*at->second : nullptr;
+}
+
+const std::string& ShaderSources::keep(const std::string& path, const std::string& text) {
+  const std::lock_guard lock(mutex_);
+  return own_texts_[path] = text;
 }
 
 std::vector<std::string> ShaderSources::readable_paths() const {

@@ -21,12 +21,15 @@ class ShaderSources {
   explicit ShaderSources(ReadFile read) : read_(std::move(read)) {}
   // Null if unreadable. The text lives as long as this object.
   const std::string* find(const std::string& path);
+  // A text the compiler wrote itself, findable from now on under `path`, which the reader is not asked for and which does not count as read.
+  const std::string& keep(const std::string& path, const std::string& text);
   std::vector<std::string> readable_paths() const;  // sorted
 
  private:
   ReadFile read_;
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<std::string>> texts_;
+  std::map<std::string, std::string> own_texts_;
 };
 
 }  // namespace rg::compiler

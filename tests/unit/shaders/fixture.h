@@ -90,7 +90,7 @@ struct Fixture {
       const auto found = shaders.find(path);
       return found == shaders.end() ? std::nullopt : std::optional(found->second);
     };
-    return compile_shaders(program, graph_id, read, files, diagnostics);
+    return compile_shaders(program, graph_id, initial_variants(program, graph_id), read, files, {}, diagnostics);
   }
   // "RG0403 passes.rg:5:5 `depth` is declared by ..." one line each, notes indented.
   std::string report() const {

@@ -1,0 +1,31 @@
+// Runs of the front end and specialisations: the expensive part, in parallel and through the cache.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "compiler/shaders/cache.h"
+#include "compiler/shaders/shader_work.h"
+
+namespace rg::compiler {
+
+struct FrontEndResult {
+  std::vector<ShaderMessage> errors;
+  Reflection reflection;       // of the module as written
+  ModuleUses uses;             // of `generic`
+  Words generic;               // optimised, specialisation constants open, named
+  std::set<uint32_t> numbers;  // of the specialisation constants it still looks at
+  Digest key;                  // of everything it depends on; only with a cache
+};
+std::vector<FrontEndResult> run_front_ends(const std::vector<FrontEndJob>& jobs, ShaderSources& sources, const ShaderOptions& options);
+
+using ConstantValues = std::vector<std::pair<uint32_t, uint32_t>>;  // number of a specialisation constant, value; ascending
+struct SpecialiseJob {
+  size_t front_end = 0;
+  ConstantValues values;  // of exactly FrontEndResult::numbers
+  friend auto operator<=>(const SpecialiseJob&, const SpecialiseJob&) = default;
+};
+// Validated, optimised, stripped SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
+std::vector<Words> specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);
+
+}  // namespace rg::compiler
