@@ -1,0 +1,125 @@
+#include "compiler/spectrum/cost_model.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace rg::compiler {
+namespace {
+
+// Solves the symmetric positive definite system in place; Gauss without pivoting is safe there.
+std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
+  const size_t n = b.size();
+  for (size_t k = 0; k < n; ++k) {
+    for (size_t i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (size_t j = k; j < n; ++j) a[i][j] -= factor * a[k][j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (size_t k = n; k-- > 0;) {
+    for (size_t j = k + 1; j < n; ++j) b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return b;
+}
+
+}  // namespace
+
+double evaluate(const Additive& terms, Mask set) {
+  double sum = terms.base;
+  for (size_t i = 0; i < terms.features.size(); ++i)
+    if (set >> i & 1) sum += terms.features[i];
+  for (const auto& [both, value] : terms.pairs)
+    if ((set & both) == both) sum += value;
+  return sum;
+}
+
+double register_factor(double registers) {
+  constexpr std::pair<double, double> kSteps[] = {{32, 1.0}, {48, 1.05}, {64, 1.15}, {96, 1.3}, {128, 1.5}};
+  for (const auto& [limit, factor] : kSteps)
+    if (registers <= limit) return factor;
+  return 2.0;
+}
+
+double cost(const CostModel& model, Mask set) {
+  const auto known = std::lower_bound(model.measured.begin(), model.measured.end(), set, [](const auto& row, Mask m) { return row.first < m; });
+  if (known != model.measured.end() && known->first == set) return known->second;
+  return std::max(0.0, evaluate(model.work, set)) * register_factor(evaluate(model.registers, set));
+}
+
+CostTable::Terms::Terms(const Additive& terms) : base(terms.base) {
+  std::copy_n(terms.features.begin(), std::min<size_t>(terms.features.size(), 32), features);
+  for (const auto& [both, value] : terms.pairs) {
+    if (std::popcount(both) == 2)
+      pairs[std::countr_zero(both)][31 - std::countl_zero(both)] += value;
+    else
+      wider.emplace_back(both, value);
+  }
+}
+
+double CostTable::Terms::sum(Mask set) const {
+  double total = base;
+  for (Mask rest = set; rest != 0; rest &= rest - 1) {
+    const int i = std::countr_zero(rest);
+    total += features[i];
+    for (Mask others = rest & (rest - 1); others != 0; others &= others - 1) total += pairs[i][std::countr_zero(others)];
+  }
+  for (const auto& [all, value] : wider)
+    if ((set & all) == all) total += value;
+  return total;
+}
+
+CostTable::CostTable(const CostModel& model) : work_(model.work), registers_(model.registers), model_(model) {}
+
+double CostTable::operator()(Mask set) const {
+  const auto& measured = model_.measured;
+  const auto known = std::lower_bound(measured.begin(), measured.end(), set, [](const auto& row, Mask m) { return row.first < m; });
+  if (known != measured.end() && known->first == set) return known->second;
+  return std::max(0.0, work_.sum(set)) * register_factor(registers_.sum(set));
+}
+
+Additive fit_terms(uint32_t features, const std::vector<std::pair<Mask, double>>& samples) {
+  const std::map<Mask, double> by_set(samples.begin(), samples.end());
+  const auto sample = [&](Mask set, double otherwise) {
+    const auto found = by_set.find(set);
+    return found == by_set.end() ? otherwise : found->second;
+  };
+  Additive terms;
+  terms.base = sample(0, 1);
+  for (uint32_t i = 0; i < features; ++i) terms.features.push_back(sample(Mask{1} << i, terms.base) - terms.base);
+  for (const auto& [set, value] : by_set) {
+    if (std::popcount(set) != 2) continue;
+    const double alone = evaluate({terms.base, terms.features, {}}, set);
+    if (value != alone) terms.pairs.emplace_back(set, value - alone);
+  }
+  return terms;
+}
+
+Additive fit_least_squares(uint32_t features, const std::vector<std::pair<Mask, double>>& samples) {
+  const size_t n = features + 1;  // the last unknown is the base
+  std::vector<std::vector<double>> a(n, std::vector<double>(n, 0.0));
+  std::vector<double> b(n, 0.0);
+  const auto has = [&](Mask set, size_t i) { return i == features || (set >> i & 1) ? 1.0 : 0.0; };
+  double mean = 0;
+  for (const auto& [set, value] : samples) {
+    mean += value / static_cast<double>(samples.size());
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t j = 0; j < n; ++j) a[i][j] += has(set, i) * has(set, j);
+      b[i] += has(set, i) * value;
+    }
+  }
+  const double damping = 1e-3, share = mean / static_cast<double>(n);
+  for (size_t i = 0; i < n; ++i) a[i][i] += damping, b[i] += damping * share;
+  std::vector<double> x = solve(std::move(a), std::move(b));
+  Additive terms;
+  terms.base = x.back();
+  x.pop_back();
+  for (double& each : x) each = std::max(each, 0.0);  // a feature never makes a kernel cheaper
+  terms.features = std::move(x);
+  return terms;
+}
+
+}  // namespace rg::compiler

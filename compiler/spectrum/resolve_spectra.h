@@ -1,0 +1,43 @@
+// Spectra of a program: their profiles are read, their kernels measured, their modes chosen.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compiler/shaders/shaders.h"
+#include "compiler/spectrum/choose_modes.h"
+#include "compiler/spectrum/expand_spectra.h"
+#include "compiler/spectrum/profile.h"
+#include "dsl/diagnostics.h"
+
+namespace rg::compiler {
+
+struct SpectrumChoice {
+  dsl::SpectrumId spectrum;
+  std::string pass;                        // the first that uses it; its shader was measured
+  std::optional<SpectrumProfile> profile;  // none: nothing was measured, and the problem stands on an assumption
+  SpectrumProblem problem;
+  ModeChoice choice;
+};
+struct SpectrumOptions {
+  std::string profile;            // path that replaces those of all spectra; empty: their own
+  std::optional<uint32_t> modes;  // replaces `modes`
+  Mask force = 0;                 // features that every mask gets
+  const ShaderCache* cache = nullptr;
+  unsigned workers = 0;
+  std::function<void(std::string_view)> progress;
+};
+
+// One row a spectrum that some pass uses, in order of declaration. Costs are the profile's, else fitted to the shader's statistics for no feature,
+// each feature and each pair. `read_override` reads SpectrumOptions::profile. Reports unreadable, foreign and empty profiles, and masks that do not
+// match the grid of their pass.
+std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const ReadFile& read, const ReadFile& read_override, dsl::SourceFiles& files,
+                                            const SpectrumOptions& options, dsl::Diagnostics& diagnostics);
+
+std::vector<KernelSets> kernel_sets(const std::vector<SpectrumChoice>& choices);
+
+// Paths that were read, for a depfile.
+std::vector<std::string> profile_paths(const dsl::Program& program);
+
+}  // namespace rg::compiler
