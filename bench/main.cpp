@@ -14,7 +14,8 @@ struct Bench {
   Rows (*run)(const std::string& graphs);
 };
 constexpr Bench kBenches[] = {{"planner", bench_planner},   {"front_end", bench_front_end}, {"checker", bench_checker},
-                              {"executor", bench_executor}, {"packing", bench_packing},     {"runtime", bench_runtime}};
+                              {"executor", bench_executor}, {"packing", bench_packing},     {"runtime", bench_runtime},
+                              {"variants", bench_variants}};
 
 void print_text(const Rows& rows) {
   for (const Row& row : rows) {

@@ -24,6 +24,7 @@ Rows bench_executor(const std::string& graphs);
 // Needs no graphs. RGC_PACKING may name a folder of packing problems.
 Rows bench_packing(const std::string& graphs);
 Rows bench_runtime(const std::string& graphs);
+Rows bench_variants(const std::string& graphs);  // reads bench/shaders and passes.rg: run it in the root folder
 
 // Median of `runs` wall-clock times of `work`, in milliseconds; the first run warms up and is not counted.
 template <class Work>

@@ -1,11 +1,14 @@
 #include "compiler/compile.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "compiler/check_queues.h"
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
 #include "compiler/judge.h"
+#include "compiler/variant_space.h"
 
 namespace rg::compiler {
 namespace {
@@ -32,29 +35,88 @@ std::vector<std::string> paths_read(const std::string& root_path, const CompileR
     if (source.path.ends_with(".rg")) paths.push_back(source.path);
   for (const CompiledGraph& graph : result.graphs)
     for (const std::string& path : graph.shaders.read_files) paths.push_back(in_folder_of(root_path, path));
+  for (const std::string& path : profile_paths(result.program)) paths.push_back(in_folder_of(root_path, path));
   return paths;
 }
 
+std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options,
+                                           const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
+  if (result.program.spectra.empty()) return {};
+  const ReadFile replaced = [&](const std::string& path) {
+    std::string why;
+    return options.read_profile ? options.read_profile(path, why) : read(path, why);
+  };
+  Mask force = 0;
+  for (const std::string& name : options.forced_features) {
+    const Mask before = force;
+    for (const dsl::Spectrum& spectrum : result.program.spectra)
+      for (size_t i = 0; i < spectrum.members.size(); ++i)
+        if (spectrum.members[i].name == name) force |= Mask{1} << i;
+    if (force == before) diagnostics.report(dsl::DiagnosticKind::UnknownName, {}, {"feature of a spectrum", name});
+  }
+  const SpectrumOptions spectrum_options{options.spectrum_profile, options.spectrum_modes, force, cache, options.workers, options.progress};
+  return resolve_spectra(result.program, shader_reader(root_path, read), replaced, result.sources, spectrum_options, diagnostics);
+}
+
+// What the cache went through, reported where it is not as it should be.
+ShaderCache::Counts settle(const ShaderCache& cache, dsl::Diagnostics& diagnostics) {
+  const ShaderCache::Counts counts = cache.counts();
+  if (counts.damaged > 0) diagnostics.report(dsl::DiagnosticKind::CacheDamaged, {}, {cache.folder(), std::to_string(counts.damaged)});
+  if (counts.failed > 0) diagnostics.report(dsl::DiagnosticKind::CacheNotWritable, {}, {cache.folder()});
+  if (counts.stored > 0) cache.trim();
+  return counts;
+}
+
+// Passes whose shaders no configuration can run.
+void report_absent_passes(const dsl::Graph& row, const CompiledGraph& graph, dsl::Diagnostics& diagnostics) {
+  for (size_t p = 0; p < row.passes.size(); ++p) {
+    const dsl::Pass& pass = row.passes.rows[p];
+    if (!pass.shaders.empty() && !graph.configurations.empty() && graph.space.passes[p].empty())
+      diagnostics.report(dsl::DiagnosticKind::PassNever, pass.span, {pass.name});
+  }
+}
+
+// Shaders of the plans that have to exist, and of no others.
 CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options,
-                                    CompileResult& result, dsl::Diagnostics& diagnostics) {
-  tell(options, "shaders of " + result.program.graphs[id].name);
-  CompiledGraph graph{id, {}, {}};
-  graph.shaders = compile_shaders(result.program, id, shader_reader(root_path, read), result.sources, diagnostics);
+                                    const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
+  const std::string& name = result.program.graphs[id].name;
+  tell(options, "shaders of " + name);
+  CompiledGraph graph{id, {}, {}, expand_configurations(result.program, id, options.fixed_features, options.max_plans, diagnostics), {}};
+  const auto progress = [&](std::string_view what) { tell(options, name + ": " + std::string(what)); };
+  const ShaderOptions shader_options{cache, options.workers, progress};
+  graph.space = find_variant_space(result.program, id, graph.configurations, diagnostics);
+  if (options.fixed_features.empty()) report_absent_passes(result.program.graphs[id], graph, diagnostics);
+  graph.shaders = compile_shaders(result.program, id, graph.space, shader_reader(root_path, read), result.sources, shader_options, diagnostics);
   return graph;
 }
 
-std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph& graph, const std::vector<Configuration>& configurations,
-                                const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+// One machine's part of the shaders, or the list of all parts.
+void run_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options, const ShaderCache* cache,
+               CompileResult& result, dsl::Diagnostics& diagnostics) {
+  const auto configurations = expand_configurations(result.program, id, options.fixed_features, options.max_plans, diagnostics);
+  const VariantSpace space = find_variant_space(result.program, id, configurations, diagnostics);
+  if (diagnostics.has_errors()) return;
+  const ReadFile reader = shader_reader(root_path, read);
+  if (options.list_tasks) {
+    for (ShaderTask& task : list_tasks(result.program, id, space, reader, diagnostics)) result.tasks.push_back(std::move(task));
+    return;
+  }
+  build_shard(result.program, id, space, reader, result.sources, {cache, options.workers, options.progress}, options.shard, options.shards,
+              diagnostics);
+}
+
+std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph& graph, const CompileOptions& options,
+                                dsl::Diagnostics& diagnostics) {
   PlanOptions plan_options = options.plan;
   if (!options.profile.empty()) plan_options.measured_us = measured_times(program, graph.graph, options.profile, options.profile_text, diagnostics);
   std::vector<FramePlan> plans;
-  for (const Configuration& configuration : configurations) {
+  for (const Configuration& configuration : graph.configurations) {
     tell(options, "plan of " + program.graphs[graph.graph].name + " " + configuration_name(program, configuration));
     FramePlan plan = plan_frame(program, graph.graph, configuration, plan_options);
     plan.plan.variant = static_cast<uint32_t>(plans.size());
-    plan.plan.variant_count = static_cast<uint32_t>(configurations.size());
+    plan.plan.variant_count = static_cast<uint32_t>(graph.configurations.size());
     plan.plan.variant_name = intern(configuration_name(program, configuration));
-    attach_shaders(plan.plan, program, graph.graph, graph.shaders);
+    attach_shaders(plan.plan, program, graph.graph, graph.shaders, plans.size());
     plans.push_back(std::move(plan));
   }
   return plans;
@@ -74,15 +136,24 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   result.program = std::move(front.program);
   if (options.until == Until::program) return result;
 
-  // Shaders behind their generated interfaces; what they really touch completes the declared accesses.
-  for (size_t g = 0; g < result.program.graphs.size(); ++g)
-    result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, result, diagnostics));
-  result.read_files = paths_read(root_path, result);
+  // Which kernels serve which tiles; passes with a spectrum become those that run it.
+  const std::optional<ShaderCache> cache =
+      options.cache_folder.empty() ? std::nullopt : std::optional<ShaderCache>(std::in_place, options.cache_folder, options.cache_bytes);
+  result.spectra = choose_kernels(root_path, read, options, cache ? &*cache : nullptr, result, diagnostics);
+  if (diagnostics.has_errors()) return result;
+  result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
 
-  // Which plans have to exist.
-  std::vector<std::vector<Configuration>> configurations;
-  for (const CompiledGraph& graph : result.graphs)
-    configurations.push_back(expand_configurations(result.program, graph.graph, options.fixed_features, options.max_plans, diagnostics));
+  // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
+  if (options.list_tasks || options.shards > 0) {
+    for (size_t g = 0; g < result.program.graphs.size(); ++g)
+      run_tasks(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics);
+    if (cache) result.cache = settle(*cache, diagnostics);
+    return result;
+  }
+  for (size_t g = 0; g < result.program.graphs.size(); ++g)
+    result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics));
+  if (cache) result.cache = settle(*cache, diagnostics);
+  result.read_files = paths_read(root_path, result);
 
   // The gate: later phases cannot fail on user input; what they find is judged at the end.
   if (diagnostics.has_errors()) return result;
@@ -90,12 +161,11 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (options.until == Until::shaders) return result;
 
   // Queues that passes insist on.
-  for (size_t g = 0; g < result.graphs.size(); ++g) check_queues(result.program, result.graphs[g].graph, configurations[g], diagnostics);
+  for (const CompiledGraph& graph : result.graphs) check_queues(result.program, graph.graph, graph.configurations, diagnostics);
   if (diagnostics.has_errors()) return result;
 
   // Program to plans, one a configuration.
-  for (size_t g = 0; g < result.graphs.size(); ++g)
-    result.graphs[g].plans = plan_all(result.program, result.graphs[g], configurations[g], options, diagnostics);
+  for (size_t g = 0; g < result.graphs.size(); ++g) result.graphs[g].plans = plan_all(result.program, result.graphs[g], options, diagnostics);
 
   // What the program asserts about its plans.
   for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);

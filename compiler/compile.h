@@ -2,13 +2,16 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compiler/codegen/generate.h"
 #include "compiler/plan_frame.h"
+#include "compiler/shaders/cache.h"
 #include "compiler/shaders/shaders.h"
+#include "compiler/spectrum/resolve_spectra.h"
 #include "dsl/diagnostics.h"
 #include "dsl/front_end.h"
 
@@ -19,9 +22,18 @@ enum class Until : uint8_t { program, shaders, plans, files };
 struct CompileOptions {
   Until until = Until::files;
   PlanOptions plan;
-  std::string profile, profile_text;               // a file of measured times, see compiler/pass_cost.h, and what is in it; empty: none
-  std::vector<std::string> fixed_features;         // `-D fog=off`: static features, each "NAME=VALUE"
-  size_t max_plans = 64;                           // feature configurations of one graph
+  std::string profile, profile_text;        // a file of measured times, see compiler/pass_cost.h, and what is in it; empty: none
+  std::vector<std::string> fixed_features;  // `-D fog=off`: static features, each "NAME=VALUE"
+  size_t max_plans = 64;                    // feature configurations of one graph
+  std::string cache_folder;                 // of compiled shaders, see shaders/cache.h; empty: none
+  uint64_t cache_bytes = kDefaultCacheBytes;
+  unsigned workers = 0;                            // threads that compile shaders; 0: one a core
+  unsigned shard = 0, shards = 0;                  // more than 0 shards: only this part of the shaders, into the cache, and nothing else
+  bool list_tasks = false;                         // fills CompileResult::tasks and stops there
+  std::string spectrum_profile;                    // replaces the profiles of all spectra; empty: their own
+  dsl::ReadSource read_profile;                    // reads that file; empty: the reader of the sources
+  std::optional<uint32_t> spectrum_modes;          // replaces their numbers of kernels
+  std::vector<std::string> forced_features;        // of spectra: on in every mask
   std::string command;                             // as it shall stand in the banner of generated files
   std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
 };
@@ -30,15 +42,20 @@ struct CompileOptions {
 struct CompiledGraph {
   dsl::GraphId graph;
   ShaderBundle shaders;
-  std::vector<FramePlan> plans;
+  std::vector<FramePlan> plans;               // by configuration
+  std::vector<Configuration> configurations;  // of the features it depends on
+  VariantSpace space;                         // which shader variants they can select
 };
 
 struct CompileResult {
   dsl::SourceFiles sources;             // sources[0] is the root file; diagnostics point into them
-  dsl::Program program;                 // every Access::stages resolved, from Until::shaders on
+  dsl::Program program;                 // spectra expanded and every Access::stages resolved, from Until::shaders on
+  std::vector<SpectrumChoice> spectra;  // what serves which masks, and why
   std::vector<CompiledGraph> graphs;    // in order of declaration
   std::vector<GeneratedFile> files;     // paths relative to the output folder
   std::vector<std::string> read_files;  // sources and shader files, for a depfile
+  std::vector<ShaderTask> tasks;        // of all graphs, where they were asked for
+  ShaderCache::Counts cache;            // what the cache gave and took
 };
 
 // Reads `root_path` and everything it names. After an error was reported the later tables are empty.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
@@ -21,9 +22,52 @@ compiler::CompileOptions with_banner(const BuildOptions& options) {
   return compile;
 }
 
+// Every job is hermetic: the sources and the flags decide what it stores in the cache.
+nlohmann::ordered_json manifest_of(const BuildOptions& options, const compiler::CompileResult& result) {
+  nlohmann::ordered_json json = {
+      {"schema", "rgc-jobs-1"}, {"file", options.file}, {"sources", nlohmann::ordered_json::array()}, {"jobs", nlohmann::ordered_json::array()}};
+  for (const dsl::SourceFile& source : result.sources) json["sources"].push_back(source.path);
+  for (size_t i = 0; i < result.tasks.size(); ++i) {
+    const compiler::ShaderTask& task = result.tasks[i];
+    const std::string shard = fmt::format("{}/{}", i, result.tasks.size());
+    nlohmann::ordered_json arguments = {"build", options.file, "--shard", shard, "--cache", options.compile.cache_folder};
+    for (const std::string& fixed : options.compile.fixed_features) arguments.insert(arguments.end(), {"-D", fixed});
+    json["jobs"].push_back({{"shard", shard}, {"pass", task.pass}, {"shader", task.shader}, {"features", task.features}, {"arguments", arguments}});
+  }
+  return json;
+}
+
+int write_manifest(const BuildOptions& options) {
+  compiler::CompileOptions compile = options.compile;
+  compile.list_tasks = true;
+  const auto result = compile_or_report(options.file, compile);
+  if (!result) return exit_input_wrong;
+  dsl::Diagnostics diagnostics;
+  write_file(options.manifest, manifest_of(options, *result).dump(2) + "\n", diagnostics);
+  return finish(diagnostics, result->sources);
+}
+
+// A shard without a cache would be work for nothing.
+int build_part(const BuildOptions& options) {
+  if (options.compile.cache_folder.empty()) {
+    fmt::print(stderr, "build: --shard needs a cache that the other parts share; name one with --cache DIR\n");
+    return exit_call_wrong;
+  }
+  const auto result = compile_or_report(options.file, options.compile);
+  if (!result) return exit_input_wrong;
+  if (!options.quiet)
+    print(
+        fmt::format("part {} of {}: {} found, {} stored\n", options.compile.shard, options.compile.shards, result->cache.hits, result->cache.stored));
+  dsl::Diagnostics diagnostics;
+  if (!options.stamp.empty()) touch_file(options.stamp, diagnostics);
+  return finish(diagnostics, result->sources);
+}
+
 }  // namespace
 
 int build(const BuildOptions& options) {
+  if (!options.manifest.empty()) return write_manifest(options);
+  if (options.compile.shards > 0) return build_part(options);
   const auto result = compile_or_report(options.file, with_banner(options));
   if (!result) return exit_input_wrong;
   dsl::Diagnostics diagnostics;

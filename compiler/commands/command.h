@@ -15,7 +15,7 @@ enum ExitCode { exit_done = 0, exit_input_wrong = 1, exit_call_wrong = 2, exit_o
 // ---- the commands: options as plain values, the exit code as the result -------------------------------------------------
 
 struct BuildOptions {
-  std::string file, folder = "generated", depfile, stamp;
+  std::string file, folder = "generated", depfile, stamp, manifest;
   bool quiet = false;
   compiler::CompileOptions compile;
 };
@@ -43,6 +43,16 @@ struct ReportOptions {
   bool json = false;
   compiler::CompileOptions compile;
 };
+struct StatsOptions {
+  std::string file;
+  bool json = false;
+  compiler::CompileOptions compile;
+};
+struct SpectrumCommand {
+  std::string file, html;
+  bool json = false;
+  compiler::CompileOptions compile;
+};
 struct GraphOptions {
   std::string file;
   bool dot = false, html = false;
@@ -62,6 +72,8 @@ int format_files(const FmtOptions& options);
 int verify_file(const VerifyCommand& options);
 int explain(const ExplainOptions& options);
 int report(const ReportOptions& options);
+int stats(const StatsOptions& options);
+int spectrum(const SpectrumCommand& options);
 int show_graph(const GraphOptions& options);
 int diff(const DiffOptions& options);
 int emit(const EmitOptions& options);

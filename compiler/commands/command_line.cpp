@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,6 +13,30 @@ namespace rg::commands {
 namespace {
 
 using Run = std::function<int()>;  // set while the words are read, called afterwards
+
+// $RGC_CACHE, where `off` means none, else the cache folder of the user; none where there is no home.
+std::string default_cache_folder() {
+  const auto variable = [](const char* name) { return std::getenv(name) ? std::string(std::getenv(name)) : std::string(); };
+  const std::string own = variable("RGC_CACHE"), xdg = variable("XDG_CACHE_HOME"), home = variable("HOME");
+  if (!own.empty()) return own == "off" ? "" : own;
+  if (!xdg.empty()) return xdg + "/rgc";
+  return home.empty() ? "" : home + "/.cache/rgc";
+}
+
+// Options of commands that compile shaders.
+void add_shader_options(CLI::App& command, compiler::CompileOptions& options) {
+  options.cache_folder = default_cache_folder();
+  command.add_option("--cache", options.cache_folder, "keep compiled shaders there; default: $RGC_CACHE, or the user's cache folder")
+      ->type_name("DIR");
+  command.add_flag_callback(
+      "--no-cache", [&options] { options.cache_folder.clear(); }, "compile every shader anew");
+  command
+      .add_option_function<uint64_t>(
+          "--cache-limit", [&options](uint64_t mib) { options.cache_bytes = mib << 20; }, "size beyond which the oldest entries go; default: 512")
+      ->type_name("MIB")
+      ->check(CLI::Range(uint64_t{1}, uint64_t{1} << 20));
+  command.add_option("--jobs", options.workers, "threads that compile shaders; default: one a core")->type_name("N")->check(CLI::Range(1u, 1024u));
+}
 
 // Options that change the plan.
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
@@ -32,7 +57,7 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("--queues", options.plan.queues, "what the plan may use, graphics first; default: graphics")
       ->type_name("KIND,...")
       ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(kinds))
+      ->transform(CLI::CheckedTransformer(kinds).description(""))
       ->check([&options](const std::string&) { return options.plan.queues.size() > 16 ? std::string("at most 16 queues") : std::string(); });
   const std::map<std::string, compiler::Prefer> preferences = {{"balance", compiler::Prefer::balance},
                                                                {"time", compiler::Prefer::time},
@@ -41,12 +66,13 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
                                                                {"order", compiler::Prefer::order}};
   command.add_option("--prefer", options.plan.prefer, "balance, time, memory, barriers or order")
       ->type_name("WHAT")
-      ->transform(CLI::CheckedTransformer(preferences));
+      ->transform(CLI::CheckedTransformer(preferences).description(""));
   const std::map<std::string, compiler::Effort> efforts = {
       {"fast", compiler::Effort::fast}, {"default", compiler::Effort::normal}, {"max", compiler::Effort::max}};
   command.add_option("--effort", options.plan.effort, "of the search for an order: fast, default or max")
       ->type_name("HOW")
-      ->transform(CLI::CheckedTransformer(efforts));
+      ->transform(CLI::CheckedTransformer(efforts).description(""));
+  add_shader_options(command, options);
   command.add_option("--profile", options.profile, "measured times of passes, frame.profile.json; see docs/planner.md")->type_name("FILE");
 }
 
@@ -64,6 +90,15 @@ struct Subcommand {
 
 constexpr const char* kRootFile = "the root .rg file";
 
+// "3/8"; an empty text is success, as CLI11 wants it.
+std::string read_shard(const std::string& text, compiler::CompileOptions& options) {
+  unsigned shard = 0, shards = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%u/%u%c", &shard, &shards, &rest) != 2 || shard >= shards) return "`" + text + "` is no part such as 0/8 to 7/8";
+  options.shard = shard, options.shards = shards;
+  return "";
+}
+
 void add_build(CLI::App& app, Run& run) {
   Subcommand<BuildOptions> command(app, run, "build", "compile a frame into C++ and SPIR-V; only what changed is written", build);
   BuildOptions& options = *command.options;
@@ -73,6 +108,11 @@ void add_build(CLI::App& app, Run& run) {
   command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
   command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
       ->type_name("TEXT");
+  command->add_option("--manifest", options.manifest, "list the shader variants as jobs for other machines, as JSON, and build nothing")
+      ->type_name("FILE");
+  command->add_option("--shard", "build only the shaders of part I of N (I from 0) into the cache, and nothing else")
+      ->type_name("I/N")
+      ->check([&options](const std::string& text) { return read_shard(text, options.compile); });
   command->add_flag("-q,--quiet", options.quiet, "say nothing on success");
   add_plan_options(*command.command, options.compile);
 }
@@ -112,6 +152,31 @@ void add_report(CLI::App& app, Run& run) {
   command->add_option("FILE", command.options->file, kRootFile)->required();
   command->add_flag("--json", command.options->json, "the same facts as JSON; see docs/cli.md");
   add_plan_options(*command.command, command.options->compile);
+}
+
+void add_stats(CLI::App& app, Run& run) {
+  Subcommand<StatsOptions> command(app, run, "stats", "what the shaders consist of, a row a variant: instructions, samples, memory, live values",
+                                   stats);
+  command->add_option("FILE", command.options->file, kRootFile)->required();
+  command->add_flag("--json", command.options->json, "the same as JSON; see docs/variants.md");
+  add_plan_options(*command.command, command.options->compile);
+}
+
+void add_spectrum(CLI::App& app, Run& run) {
+  Subcommand<SpectrumCommand> command(app, run, "spectrum", "which kernels serve which tiles, what they cost, what one more would be worth",
+                                      spectrum);
+  SpectrumCommand& options = *command.options;
+  command->add_option("FILE", options.file, kRootFile)->required();
+  command->add_option("--profile", options.compile.spectrum_profile, "a recorded histogram instead of the declared one; see docs/variants.md")
+      ->type_name("FILE");
+  command->add_option("--modes", options.compile.spectrum_modes, "how many kernels instead of the declared number")
+      ->type_name("N")
+      ->check(CLI::Range(1, 32));
+  command->add_option("--force", options.compile.forced_features, "a feature that every tile gets")->type_name("FEATURE")->allow_extra_args(false);
+  command->add_flag("--json", options.json, "the same as JSON; see docs/variants.md");
+  command->add_option("--html", options.html, "also write a page with plots")->type_name("FILE");
+  command->add_option("-D", options.compile.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
+  add_shader_options(*command.command, options.compile);
 }
 
 void add_graph(CLI::App& app, Run& run) {
@@ -166,7 +231,8 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", "rgc 0.1.0");
   app.footer("Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.");
   Run run;
-  for (auto* add : {add_build, add_check, add_fmt, add_verify, add_explain, add_report, add_graph, add_diff, add_emit}) add(app, run);
+  for (auto* add : {add_build, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
+    add(app, run);
   if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
   try {
     app.parse(argc, argv);

@@ -32,12 +32,46 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
   return text;
 }
 
+// Variants that were built, and why the others were not.
+std::string variants_text(const compiler::ShaderBundle& bundle) {
+  std::string text;
+  for (const compiler::VariantCount& count : bundle.counts) {
+    text += fmt::format("  shader {} of {}: {} declared, {} built by {}\n", count.shader, count.pass, counted(count.declared, "variant"), count.built,
+                        counted(count.front_ends, "front-end run"));
+    const auto avoided = [&](uint64_t number, const char* why) {
+      if (number > 0) text += fmt::format("    {} avoided: {}\n", number, why);
+    };
+    avoided(count.infeasible, "no plan has that combination of features");
+    avoided(count.unreachable, "the pass is absent or culled there");
+    avoided(count.indifferent, "they differ in features the shader does not look at");
+    avoided(count.equal, "they are the same SPIR-V as another");
+  }
+  return text;
+}
+
+nlohmann::ordered_json variants_json(const std::vector<compiler::CompiledGraph>& graphs) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const compiler::CompiledGraph& graph : graphs)
+    for (const compiler::VariantCount& count : graph.shaders.counts)
+      rows.push_back({{"pass", count.pass},
+                      {"shader", count.shader},
+                      {"declared", count.declared},
+                      {"infeasible", count.infeasible},
+                      {"unreachable", count.unreachable},
+                      {"indifferent", count.indifferent},
+                      {"equal", count.equal},
+                      {"built", count.built},
+                      {"front_ends", count.front_ends}});
+  return rows;
+}
+
 // The facts of the first plan at the top; `plans` holds those of every graph and configuration.
-nlohmann::ordered_json json_of(const std::vector<Facts>& all) {
+nlohmann::ordered_json json_of(const std::vector<Facts>& all, const std::vector<compiler::CompiledGraph>& graphs) {
   nlohmann::ordered_json json = {{"schema", "rgc-report-1"}};
   json.update(to_json(all.front()));
   json["plans"] = nlohmann::ordered_json::array();
   for (const Facts& facts : all) json["plans"].push_back(to_json(facts));
+  json["shader_variants"] = variants_json(graphs);
   return json;
 }
 
@@ -54,8 +88,9 @@ int report(const ReportOptions& options) {
       all.push_back(find_facts(result->program, graph, plan));
       if (!options.json) print(text_of(all.back(), plan.plan));
     }
+    if (!options.json) print(variants_text(graph.shaders));
   }
-  if (options.json) print(json_of(all).dump(2) + "\n");
+  if (options.json) print(json_of(all, result->graphs).dump(2) + "\n");
   return exit_done;
 }
 

@@ -11,7 +11,7 @@ mkdir "$work/bin"
 ln -s "$binary_dir/compiler/rgc" "$work/bin/rgc"
 demo=$binary_dir/examples/demo/rgc_demo
 [ ! -x "$demo" ] || ln -s "$demo" "$work/bin/demo"
-export PATH=$work/bin:$PATH LC_ALL=C RGC_SOURCE=$source_dir
+export PATH=$work/bin:$PATH LC_ALL=C RGC_SOURCE=$source_dir RGC_CACHE=off
 unset NO_COLOR
 
 run_case() {

@@ -1,0 +1,36 @@
+// What `rgc spectrum` found, and the page it can write of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace rg::commands {
+
+struct KernelFacts {
+  std::string features;
+  double cost = 0, share = 0;  // share of all tiles
+};
+struct MaskFacts {
+  std::string features;
+  double share = 0;
+  uint32_t kernel = 0;
+  std::string superfluous;  // features the kernel has and the mask lacks; empty: none
+};
+struct SpectrumFacts {
+  std::string name, pass;
+  bool measured = false;
+  std::vector<std::string> scenes;
+  double tiles = 0;
+  double expected = 0, bound = 0, one_kernel = 0, kernel_per_mask = 0;
+  bool exact = false;
+  uint32_t modes = 0;         // at most
+  std::vector<double> curve;  // expected cost with 1, 2, ... kernels
+  std::vector<KernelFacts> kernels;
+  std::vector<MaskFacts> masks;  // by share, largest first
+};
+
+// One self-contained HTML page: no script, no file beside it.
+std::string spectrum_page(const std::vector<SpectrumFacts>& spectra);
+
+}  // namespace rg::commands
