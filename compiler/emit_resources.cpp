@@ -50,7 +50,8 @@ Resource make_row(const PlanParts& parts, uint32_t program_index, Expressions& e
   row.init = static_cast<InitKind>(from.init);
   row.init_value = plan_clear(from.init_value, row.aspects);
   row.is_surface = from.is_surface;
-  row.no_alias = from.no_alias || (from.lifetime == dsl::Lifetime::transient && !parts.options.aliasing);
+  // What is observable at the end of the frame gives its bytes to nobody.
+  row.no_alias = from.no_alias || (from.lifetime == dsl::Lifetime::transient && (from.is_output || !parts.options.aliasing));
   row.estimated_bytes = parts.frame.bytes[program_index];
   if (from.lifetime == dsl::Lifetime::transient)
     row.estimated_alignment = from.kind == dsl::ResourceKind::image ? parts.options.image_alignment : parts.options.buffer_alignment;

@@ -41,7 +41,7 @@ std::vector<SegmentProblem::Item> items_of(const Frame& frame, const Numbering& 
   for (const Use& use : frame.uses) {
     const dsl::Resource& resource = frame.resource_of(use.cell);
     const uint32_t node = n.node_of[use.pass];
-    if (node == UINT32_MAX || resource.lifetime != dsl::Lifetime::transient || resource.no_alias) continue;
+    if (node == UINT32_MAX || resource.lifetime != dsl::Lifetime::transient || resource.no_alias || resource.is_output) continue;
     SegmentProblem::Item& item = by_resource[frame.cells[use.cell].resource];
     item.bytes = frame.bytes[frame.cells[use.cell].resource];
     if (item.users.empty() || item.users.back() != node) item.users.push_back(node);

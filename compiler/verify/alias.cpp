@@ -151,6 +151,8 @@ void check_aliases(const Model& model, const SyncResult& sync, Report& report) {
     const dsl::Resource& resource = model.resource(source_of(aliases, r));
     if (aliases.hands[r].shares && (resource.lifetime != dsl::Lifetime::transient || resource.no_alias))
       report_alias(aliases, r, "it may not share memory, but its acquire has a clock");
+    if (aliases.hands[r].shares && resource.is_output)
+      report_alias(aliases, r, "its contents are observable at the end of the frame, but its acquire has a clock");
     if (aliases.hands[r].shares) check_acquire(aliases, r);
   }
   check_places(aliases);

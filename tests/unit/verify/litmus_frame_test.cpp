@@ -352,6 +352,13 @@ const Litmus kCases[] = {
        aliased_pair(b);
        b.plan.releases[0].point = 1;
      }},
+    {"OutputShared",
+     "program: an output is observable at the end of the frame, so that nobody may take its memory before",
+     {"alias race"},
+     [](Builder& b) {
+       const Pair pair = aliased_pair(b);
+       b.source(pair.a).is_output = true;
+     }},
     {"ImportedMemoryShared",
      "Only transients share memory",
      {"alias race"},
