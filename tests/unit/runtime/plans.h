@@ -41,7 +41,7 @@ inline Index add_shader_pass(TestPlan& p, std::string_view name, Ref source, Ref
 }
 
 // state = state.prev(1) + step; copied to `result`. Starts at 7.
-//   group 0: state.prev was written by the last frame; state was read and copied by the frames before
+//   group 0: state.prev was written by the last frame; state was written, read and copied by the frames before
 //   group 1: state -> copy      group 2: result -> host
 struct Counter {
   TestPlan plan;
@@ -58,7 +58,7 @@ inline Counter counter() {
   p.entry.push_back({{t.state, 1}, {}, stage::compute_shader, access::shader_storage_write});
   p.barriers({},
              {buffer_barrier({t.state, 1}, stage::compute_shader, access::shader_storage_write, stage::compute_shader, access::shader_storage_read),
-              buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::none, stage::compute_shader, access::none)});
+              buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::shader_storage_write, stage::compute_shader, access::shader_storage_write)});
   t.step = add_shader_pass(p, "step", {t.state, 1}, {t.state, 0}, one);
   p.barriers({}, {buffer_barrier({t.state, 0}, stage::compute_shader, access::shader_storage_write, stage::copy, access::transfer_read)});
   Transfer copy;

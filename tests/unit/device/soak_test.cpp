@@ -1,0 +1,139 @@
+// Random operations on a real driver, validated: resizes, other plans, other threads and frames in flight, turns, active extents. 300 by default, 10,000 with RGC_LONG.
+#include <fstream>
+#include <random>
+
+#include "tests/unit/device/fixture.h"
+#include "tests/unit/runtime/plans.h"
+
+namespace rg {
+namespace {
+
+using Soak = test::DeviceTest;
+
+uint64_t resident_kib() {
+  std::ifstream file("/proc/self/status");
+  std::string word;
+  while (file >> word)
+    if (word == "VmRSS:") {
+      uint64_t kib = 0;
+      file >> kib;
+      return kib;
+    }
+  return 0;
+}
+
+// Two variants of a plan with one history: `state` counts up by `step`; the second counts with a further copy, as a feature might.
+struct Variants {
+  test::Counter plain = test::counter(), copying = test::counter();
+  Variants() {
+    Transfer again;
+    again.kind = TransferKind::copy_buffer, again.src = {copying.state, 0}, again.dst = {copying.result, 0};
+    TestPlan& p = copying.plan;
+    p.barriers({}, {test::buffer_barrier({copying.result, 0}, stage::copy | stage::host, access::transfer_write, stage::copy, access::transfer_write)});
+    p.transfer("again", {again},
+               {test::touches({copying.state, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
+                test::touches({copying.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+    p.barriers({}, {test::to_host(copying.result)});
+  }
+  using TestPlan = test::TestPlan;
+};
+
+class Walk {
+ public:
+  Walk(Device& device, uint32_t seed) : device_(device), random_(seed), plans_{variants_.plain.plan.view(), variants_.copying.plan.view()} {
+    options_.heap = make_transient_heap();
+    current_.emplace(take(GraphInstance::create(device, plans_[0], options_)));
+  }
+
+  void operate() {
+    switch (random_() % 8) {
+      case 0:
+        return resize();
+      case 1:
+      case 2:
+        return succeed();
+      case 3:
+        return go_back();
+      default:
+        return frames(1 + random_() % 3);
+    }
+  }
+  void check() {
+    const auto words = current_->readback(variants_.plain.result);
+    ASSERT_TRUE(words) << words.error().message;
+    ASSERT_EQ(test::as<uint32_t>(*words), std::vector<uint32_t>(64, expected_));
+  }
+  void finish() {
+    frames(2);
+    check();
+  }
+
+ private:
+  static GraphInstance take(Result<GraphInstance> graph) {
+    EXPECT_TRUE(graph) << graph.error().message;
+    return std::move(*graph);
+  }
+  void frames(uint32_t count) {
+    for (uint32_t i = 0; i < count; ++i) {
+      const uint32_t step = static_cast<uint32_t>(random_() % 100);
+      const std::span<const std::byte> params[] = {std::as_bytes(std::span(&step, 1))};
+      FrameInputs inputs;
+      inputs.params = params;
+      const Status done = current_->execute(inputs);
+      ASSERT_TRUE(done) << done.error().message;
+      expected_ += step;
+    }
+  }
+  void resize() {
+    const Status done = current_->resize({});
+    ASSERT_TRUE(done) << done.error().message;
+    before_.reset();  // its history is another's now
+    expected_ = 7;
+  }
+  // Another variant, another number of threads and of frames in flight; the one before is kept for a while.
+  void succeed() {
+    options_.threads = 1 + static_cast<uint32_t>(random_() % 3);
+    options_.frames_in_flight = 1 + static_cast<uint32_t>(random_() % 4);
+    options_.serial = random_() % 5 == 0;
+    GraphInstance next = take(GraphInstance::create_successor(*current_, plans_[random_() % 2], options_));
+    before_.emplace(std::move(*current_));
+    current_.emplace(std::move(next));
+  }
+  void go_back() {
+    if (!before_) return;
+    const Status followed = before_->continue_from(*current_);
+    ASSERT_TRUE(followed) << followed.error().message;
+    std::swap(*before_, *current_);
+  }
+
+  Device& device_;
+  std::mt19937 random_;
+  Variants variants_;
+  Plan plans_[2];
+  GraphOptions options_;
+  std::optional<GraphInstance> current_, before_;
+  uint32_t expected_ = 7;
+};
+
+TEST_F(Soak, RandomOperationsAreSilentAndLeaveNothing) {
+  RG_OPEN_DEVICE(device, true);
+  const char* text = std::getenv("RGC_LONG");
+  const int operations = text != nullptr && *text == '1' ? 10000 : 300;
+  uint64_t early = 0;
+  {
+    Walk run(device, 1);
+    for (int i = 0; i < operations; ++i) {
+      ASSERT_NO_FATAL_FAILURE(run.operate()) << "operation " << i;
+      if (i == operations / 3) early = resident_kib();
+    }
+    ASSERT_NO_FATAL_FAILURE(run.finish());
+  }
+  const uint64_t late = resident_kib();
+  RecordProperty("rss_kib_after_a_third", static_cast<int>(early));
+  RecordProperty("rss_kib_at_the_end", static_cast<int>(late));
+  EXPECT_LT(late, early + early / 4 + 16 * 1024);
+  EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
+}
+
+}  // namespace
+}  // namespace rg
