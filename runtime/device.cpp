@@ -14,7 +14,26 @@ Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;
 Device::~Device() = default;
 
+void Device::State::rest(std::shared_ptr<void> object) {
+  if (null) return;  // nothing runs
+  const std::lock_guard lock(resting_mutex);
+  resting[next_resting++ % resting.size()].swap(object);
+}
+
+namespace {
+VkResult wait_for_queues(Device::State& state) {
+  std::vector<std::unique_lock<std::mutex>> locks;
+  for (const DeviceQueue& queue : state.queues) {
+    const bool locked = std::any_of(locks.begin(), locks.end(), [&](const auto& lock) { return lock.mutex() == queue.mutex; });
+    if (!locked) locks.emplace_back(*queue.mutex);
+  }
+  return state.vk.DeviceWaitIdle(state.device);
+}
+}  // namespace
+
 Device::State::~State() {
+  if (next_resting != 0) static_cast<void>(wait_for_queues(*this));
+  resting = {};
   if (owned) {
     if (device != VK_NULL_HANDLE) vk.DestroyDevice(device, nullptr);
     if (messenger != VK_NULL_HANDLE) vk.DestroyDebugUtilsMessengerEXT(instance, messenger, nullptr);
@@ -84,12 +103,7 @@ void add_queue(Device::State& state, const ExternalQueue& queue) {
 }
 
 Status Device::wait_idle() {
-  std::vector<std::unique_lock<std::mutex>> locks;
-  for (const DeviceQueue& queue : state_->queues) {
-    const bool locked = std::any_of(locks.begin(), locks.end(), [&](const auto& lock) { return lock.mutex() == queue.mutex; });
-    if (!locked) locks.emplace_back(*queue.mutex);
-  }
-  return check(state_->vk.DeviceWaitIdle(state_->device), "vkDeviceWaitIdle", {});
+  return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {});
 }
 
 Result<Device> Device::adopt(const ExternalDevice& external) {

@@ -1,6 +1,7 @@
 // What a Device owns. Shared with the runtime's own files, not with users.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -56,6 +57,11 @@ struct Device::State {
   bool host_query_reset = false;
   bool pipeline_statistics = false;
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+  // Semaphores that a submit has waited for stay until 64 others have come: drivers (Mesa) touch them after they have signalled that the submit is done.
+  std::array<std::shared_ptr<void>, 64> resting;
+  size_t next_resting = 0;
+  std::mutex resting_mutex;
+  void rest(std::shared_ptr<void> object);
   std::atomic<bool> lost = false;  // said once; everything after fails without a call
   std::function<void(bool is_error, std::string_view message)> on_message;
   std::atomic<uint64_t> messages = 0;

@@ -108,8 +108,9 @@ Status begin_frame(GraphInstance::State& state, const FrameInputs& inputs, const
 void end_frame(GraphInstance::State& state, FrameSlot& slot) {
   slot.done = state.submitted;
   slot.frame = state.frame++;
+  for (std::shared_ptr<Timelines>& source : slot.sources) state.context.device.rest(std::move(source));
+  slot.sources.clear();
   slot.sources.swap(state.entry_sources);
-  state.entry_sources.clear();
   state.entry_barrier = state.has_turn = false;
   if (TransientHeap* heap = state.context.heap.get()) heap->last_user = &state, heap->timelines = state.timelines, heap->moment = state.submitted;
   if (state.dump.pass != kNone && !state.dump.recorded) state.dump.recorded = true, state.dump.done = state.submitted;

@@ -26,6 +26,10 @@ GraphInstance::~GraphInstance() = default;
 
 GraphInstance::State::~State() {
   if (!context.device.lost) static_cast<void>(wait_for(*this, submitted));  // with a lost device nothing is in flight
+  for (FrameSlot& slot : slots)
+    for (std::shared_ptr<Timelines>& source : slot.sources) context.device.rest(std::move(source));
+  for (std::shared_ptr<Timelines>& source : entry_sources) context.device.rest(std::move(source));
+  if (!context.plan.waits.empty() || context.heap || timelines.use_count() > 1) context.device.rest(timelines);
   if (context.heap && context.heap->last_user == this) context.heap->last_user = nullptr, context.heap->timelines = nullptr;
 }
 
