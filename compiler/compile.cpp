@@ -69,15 +69,6 @@ ShaderCache::Counts settle(const ShaderCache& cache, dsl::Diagnostics& diagnosti
   return counts;
 }
 
-// Passes whose shaders no configuration can run.
-void report_absent_passes(const dsl::Graph& row, const CompiledGraph& graph, dsl::Diagnostics& diagnostics) {
-  for (size_t p = 0; p < row.passes.size(); ++p) {
-    const dsl::Pass& pass = row.passes.rows[p];
-    if (!pass.shaders.empty() && !graph.configurations.empty() && graph.space.passes[p].empty())
-      diagnostics.report(dsl::DiagnosticKind::PassNever, pass.span, {pass.name});
-  }
-}
-
 // Shaders of the plans that have to exist, and of no others.
 CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options,
                                     const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
@@ -87,7 +78,6 @@ CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::Rea
   const auto progress = [&](std::string_view what) { tell(options, name + ": " + std::string(what)); };
   const ShaderOptions shader_options{cache, options.workers, progress};
   graph.space = find_variant_space(result.program, id, graph.configurations, diagnostics);
-  if (options.fixed_features.empty()) report_absent_passes(result.program.graphs[id], graph, diagnostics);
   graph.shaders = compile_shaders(result.program, id, graph.space, shader_reader(root_path, read), result.sources, shader_options, diagnostics);
   return graph;
 }

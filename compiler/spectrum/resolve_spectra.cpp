@@ -55,11 +55,11 @@ std::optional<SpectrumProfile> find_profile(const dsl::Spectrum& spectrum, const
   }
   const auto text = replaced ? read_override(path) : read(path);
   if (!text) {
-    diagnostics.report(DiagnosticKind::ProfileNotReadable, span, {path, "no such file, or no permission"});
+    diagnostics.report(DiagnosticKind::SpectrumProfileNotReadable, span, {path, "no such file, or no permission"});
     return std::nullopt;
   }
   ProfileResult result = read_profile(spectrum, *text);
-  if (result.fault == ProfileFault::unreadable) diagnostics.report(DiagnosticKind::ProfileNotReadable, span, {path, result.why});
+  if (result.fault == ProfileFault::unreadable) diagnostics.report(DiagnosticKind::SpectrumProfileNotReadable, span, {path, result.why});
   if (result.fault == ProfileFault::foreign) diagnostics.report(DiagnosticKind::ProfileForeign, span, {path, spectrum.name, result.why});
   if (result.fault == ProfileFault::empty) diagnostics.report(DiagnosticKind::ProfileEmpty, span, {path});
   if (result.fault != ProfileFault::none) return std::nullopt;

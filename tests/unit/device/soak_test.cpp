@@ -131,7 +131,7 @@ TEST_F(Soak, RandomOperationsAreSilentAndLeaveNothing) {
   const uint64_t late = resident_kib();
   RecordProperty("rss_kib_after_a_third", static_cast<int>(early));
   RecordProperty("rss_kib_at_the_end", static_cast<int>(late));
-  // What is made and destroyed under the validation layer leaves about 10 KiB an operation behind in it; nothing else may grow.
+  // Measured with the validation layer loaded: about 7 KiB an operation; whose they are, the layer's or ours, is not established. More must not be lost.
   EXPECT_LT(late, early + early / 4 + 16 * 1024 + 12 * static_cast<uint64_t>(operations));
   EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
 }
