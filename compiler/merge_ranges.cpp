@@ -12,26 +12,20 @@ auto meaning(const Frame& frame, const CellBarrier& b) {
   // Both halves of a change of owner have to name the same range, so they stay cell by cell.
   const uint32_t alone = b.src_queue == b.dst_queue ? 0 : b.cell + 1;
   return std::tuple(alone, cell.resource, cell.age, b.range.aspects, b.src_stages, b.src_accesses, b.dst_stages, b.dst_accesses, b.old_layout,
-                    b.new_layout, b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue, b.foreign, b.after_wait);
+                    b.new_layout, b.tag, b.is_acquire, b.wraps, b.src_queue, b.dst_queue);
 }
 
-void absorb(CellBarrier& into, CellBarrier& other) {
-  into.sources.insert(into.sources.end(), other.sources.begin(), other.sources.end());
-  into.targets.insert(into.targets.end(), other.targets.begin(), other.targets.end());
-  into.first_use = std::min(into.first_use, other.first_use);
-}
-
-bool join_layers(CellBarrier& a, CellBarrier& b) {
+bool join_layers(CellBarrier& a, const CellBarrier& b) {
   if (a.range.mip != b.range.mip || a.range.mips != b.range.mips || a.range.layer + a.range.layers != b.range.layer) return false;
   a.range.layers += b.range.layers;
   return true;
 }
-bool join_mips(CellBarrier& a, CellBarrier& b) {
+bool join_mips(CellBarrier& a, const CellBarrier& b) {
   if (a.range.layer != b.range.layer || a.range.layers != b.range.layers || a.range.mip + a.range.mips != b.range.mip) return false;
   a.range.mips += b.range.mips;
   return true;
 }
-bool join_bytes(CellBarrier& a, CellBarrier& b) {
+bool join_bytes(CellBarrier& a, const CellBarrier& b) {
   if (a.range.aspects != 0 || a.end != b.begin) return false;
   a.end = b.end;
   return true;
@@ -41,10 +35,7 @@ template <class Join>
 void join_neighbours(const Frame& frame, std::vector<CellBarrier>& group, Join join) {
   size_t kept = 0;
   for (size_t i = 1; i < group.size(); ++i) {
-    if (meaning(frame, group[kept]) == meaning(frame, group[i]) && join(group[kept], group[i]))
-      absorb(group[kept], group[i]);
-    else
-      std::swap(group[++kept], group[i]);
+    if (meaning(frame, group[kept]) != meaning(frame, group[i]) || !join(group[kept], group[i])) std::swap(group[++kept], group[i]);
   }
   if (!group.empty()) group.resize(kept + 1);
 }

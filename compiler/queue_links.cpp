@@ -103,15 +103,12 @@ class Crosser {
       b.old_layout = whole_.old_layout, b.new_layout = whole_.new_layout;
       b.src_stages = own.effect.write_stages | latest_stages(own.effect.stages()) | (waits ? waiting : 0), b.src_accesses = own.effect.writes;
       b.dst_stages = mine.effect.stages(), b.dst_accesses = mine.effect.reads | mine.effect.writes;
-      b.foreign = waits, b.after_wait = waits ? waiting : 0;
     } else if (is_image(frame_, cell_)) {
       b.old_layout = b.new_layout = mine.effect.layout;
     }
     if (own.events.empty() && !changes && !transfers) return;
     b.is_acquire = acquire_ != UINT32_MAX;
     b.reason = whole_.reason, b.wraps = whole_.wraps;
-    b.first_use = schedule_.slot_before(first_segment(mine));
-    b.targets = mine.events;
     if (transfers) release(b, from_queues_.front(), queue);
     add_barrier(sync_, schedule_.slot_before(segment), std::move(b));
   }
@@ -139,15 +136,13 @@ class Crosser {
   // The other half of the acquire `b`, at the end of the batch that gives the image away.
   void release(CellBarrier& b, uint32_t from, uint32_t to) {
     RG_CHECK(from_queues_.size() == 1 && !is_earlier_frame(from_), "an image changes its owner within a frame, from one queue");
-    b.src_queue = from, b.dst_queue = to, b.foreign = true;
+    b.src_queue = from, b.dst_queue = to;
     CellBarrier half = b;
-    half.sources = from_.events, half.targets.clear(), half.after_wait = 0;
     half.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), half.src_accesses = from_.effect.writes,
     half.dst_accesses = 0;
     half.dst_stages = signals_all(schedule_.batch_of[last_segment(from_)]) ? stage::none : half.src_stages & ~(half.src_stages - 1);
     half.is_acquire = false, half.reason = "change of queue, " + b.reason;
     const uint32_t slot = schedule_.closing_slot(schedule_.batch_of[last_segment(from_)]);
-    half.first_use = slot;
     b.src_accesses = 0;
     add_barrier(sync_, slot, std::move(half));
   }
@@ -167,12 +162,9 @@ class Crosser {
     const bool within = !mine.events.empty() && schedule_.batch_of[first_segment(mine)] == batch;
     CellBarrier b = whole_;
     b.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), b.src_accesses = from_.effect.writes;
-    b.targets = mine.events;
     b.dst_stages = mine.events.empty() ? b.src_stages & ~(b.src_stages - 1) : mine.effect.stages(),
     b.dst_accesses = mine.effect.reads | mine.effect.writes;
-    b.foreign = true;
     const uint32_t slot = within ? schedule_.slot_before(first_segment(mine)) : schedule_.closing_slot(batch);
-    b.first_use = slot;
     for (const uint32_t other : to_queues_) {
       if (other == queue) continue;
       const Side theirs = on_queue(frame_, cell_, to_, other);
@@ -223,8 +215,6 @@ Side on_queue(const Frame& frame, uint32_t cell, const Side& side, uint32_t queu
 CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cell, const Side& from, const Side& to) {
   const bool image = is_image(frame, cell);
   CellBarrier b;
-  const dsl::Lifetime lifetime = frame.resource_of(cell).lifetime;
-  b.within_frame = lifetime == dsl::Lifetime::transient || lifetime == dsl::Lifetime::readback;
   b.cell = cell, b.range = frame.cells[cell].range, b.begin = frame.cells[cell].begin, b.end = frame.cells[cell].end;
   // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
   const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;
@@ -237,7 +227,6 @@ CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cel
   b.src_stages = from.effect.write_stages;
   if (rewrites || !from.writes) b.src_stages |= latest_stages(from.effect.read_stages | from.effect.write_stages) & ~from.effect.write_stages;
   fill_second_scope(b, from, to, new_layout);
-  b.sources = from.events;
   b.wraps = std::any_of(from.events.begin(), from.events.end(), [](const Event& event) { return event.earlier_frame; });
   b.reason = hazard_name(from, to, discards);
   return b;
@@ -251,7 +240,6 @@ void cross(const Frame& frame, const Schedule& schedule, const PlanOptions& opti
 void add_barrier(SyncPlan& sync, uint32_t slot, CellBarrier barrier) {
   const bool transfers = barrier.src_queue != barrier.dst_queue;
   if (barrier.src_stages == 0 && barrier.old_layout == barrier.new_layout && !transfers) return;  // nothing to order, nothing to change
-  barrier.first_use = std::max(barrier.first_use, slot);
   sync.groups[slot].push_back(std::move(barrier));
 }
 

@@ -87,9 +87,7 @@ class Synchroniser {
       return cross(frame_, schedule_, options_, {cell, from, to, acquire}, sync_, needs_);
     CellBarrier b = connect(frame_, options_, cell, from, to);
     b.is_acquire = acquire != UINT32_MAX;
-    b.first_use = schedule_.slot_before(segment);
-    if (schedule_.queues.size() > 1) b.targets = to.events;
-    add_barrier(sync_, b.is_acquire ? schedule_.slot_before(acquire) : b.first_use, std::move(b));
+    add_barrier(sync_, schedule_.slot_before(b.is_acquire ? acquire : segment), std::move(b));
   }
 
   // ---- within a frame -----------------------------------------------------------------------------------------------
@@ -382,7 +380,7 @@ class Synchroniser {
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options) {
   SyncPlan sync = Synchroniser(frame, schedule, options).run(lines);
   for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
-  drop_implied(sync, schedule);
+  drop_redundant(frame, schedule, lines, sync);
   return sync;
 }
 

@@ -39,13 +39,8 @@ struct CellBarrier {
   BarrierTag tag = BarrierTag::hazard;
   bool is_acquire = false;                        // first use of a transient
   bool wraps = false;                             // its first scope lies in the frame before
-  std::vector<Event> sources;                     // what must have happened
-  uint32_t first_use = 0;                         // the slot that needs it; later than the group only for discards of a transient
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
-  bool foreign = false;                           // goes on after a wait, or comes before one; never dropped
-  Stages after_wait = 0;                          // of the wait it goes on after, one of which it has to name
-  std::vector<Event> targets;                     // on several queues: what comes after it on its own
-  bool within_frame = false;                      // of a transient: no state at the frame's ends rests on it
+  bool dropped = false;                           // nothing needs it
   std::string reason;                             // "read after write"
 };
 
@@ -72,6 +67,7 @@ struct SyncPlan {
   std::vector<CellBoundary> entry, exit;    // one row a queue that has last users
   std::vector<Acquire> acquires;            // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
+  uint32_t unproved = 0;                    // facts of obligations.h that do not hold: the planner is wrong
 };
 
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options);
@@ -79,7 +75,8 @@ SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::ve
 // Joins barriers of one group that differ only in neighbouring mips, layers or bytes. Part of synchronise.
 void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group);
 
-// Removes what other barriers already order: execution-only barriers, and stages of execution-only first scopes. Part of synchronise.
-void drop_implied(SyncPlan& sync, const Schedule& schedule);
+// Removes every barrier, wait, signal, stage and access without which all facts of obligations.h still hold. Part of synchronise.
+// O((facts + atoms * facts that rest on one) * points between source and target).
+void drop_redundant(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, SyncPlan& sync);
 
 }  // namespace rg::compiler

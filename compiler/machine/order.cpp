@@ -14,8 +14,15 @@ bool ordered_in_pass(const Event& a, const Event& b) {
 // Transitions of a command follow what its memory barriers make available, where both wait for the same work.
 bool ordered_in_group(const Event& a, const Event& b) { return a.resource == kNone && b.image && (a.src & b.src) != 0; }
 
+// What the engine brings is there for those who read it as it comes.
+bool is_brought_for(const Event& a, const Event& b) {
+  return a.kind == EventKind::bring && !a.pending && a.dst_agents.any() && a.resource == b.resource && b.kind == EventKind::read &&
+         within(b.stages, a.stages);
+}
+
 bool precedes(const Event& a, const Event& b, bool same_group) {
   if (a.queue != b.queue) return false;
+  if (is_brought_for(a, b)) return true;
   const bool from_barrier = a.kind == EventKind::barrier, to_barrier = b.kind == EventKind::barrier;
   if (from_barrier && to_barrier)
     return same_group ? ordered_in_group(a, b) : (a.dst & b.src) != 0 || (b.all_commands && (a.image || a.half != Half::none));

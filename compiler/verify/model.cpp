@@ -105,7 +105,10 @@ void add_scope(Model& model, Scope scope) {
   const auto same = std::find_if(group.classes.begin(), group.classes.end(), [&](const ExecutionClass& other) {
     return model.scopes[other.scope].raw_src == scope.raw_src && model.scopes[other.scope].raw_dst == scope.raw_dst;
   });
-  if (same != group.classes.end())
+  // Half a change of owner orders nothing but itself: its other scope does not apply (VkImageMemoryBarrier2, release and acquire operations).
+  if (scope.transfer != Ownership::none)
+    ;
+  else if (same != group.classes.end())
     same->sole = false;
   else if (scope.src != 0 && scope.dst != 0)
     group.classes.push_back({id, true});

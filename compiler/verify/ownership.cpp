@@ -47,12 +47,14 @@ void check_owner(Replay& replay, uint32_t pass, uint32_t resource, uint32_t cell
   state.released_by = kNone;
 }
 
-void check_owner_of_transition(Replay& replay, const Scope& scope, uint32_t cell, CellState& state) {
+void check_owner_of_transition(Replay& replay, const Scope& scope, uint32_t scope_id, uint32_t cell, CellState& state) {
   const Model& model = replay.model;
   if (!model.is_exclusive(scope.resource)) return;
   if (scope.old_layout == Layout::undefined) {
-    state.owner = scope.queue, state.released_by = kNone;
+    const bool takes = state.released_by != kNone || !may_use(model, state, scope.queue);
     state.owner_scopes.clear();
+    if (takes) state.owner_scopes = {scope_id};
+    state.owner = scope.queue, state.released_by = kNone;
     return;
   }
   if (state.released_by == kNone && may_use(model, state, scope.queue)) {

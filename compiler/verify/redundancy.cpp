@@ -55,12 +55,15 @@ void check_redundancy(const Model& model, const std::vector<bool>& required, Rep
                           {AtomField::src_access, scope.raw_src_accesses, "source access", false},
                           {AtomField::dst_stage, scope.raw_dst, "destination stage", true},
                           {AtomField::dst_access, scope.raw_dst_accesses, "destination access", false}};
-    for (const Mask& mask : masks)
+    for (const Mask& mask : masks) {
+      // A semaphore operation in no stage is none at all.
+      if (mask.stages && scope.kind != ScopeKind::memory && !scope.has_range() && std::has_single_bit(mask.bits)) continue;
       for (uint64_t rest = mask.bits; rest != 0; rest &= rest - 1) {
         const uint64_t bit = rest & ~(rest - 1);
         if (!required[atom_of(id, mask.field, static_cast<uint32_t>(std::countr_zero(bit)))])
           report_atom(model, scope, std::string(": ") + mask.what + " " + bit_name(mask, bit) + " can be removed", report);
       }
+    }
   }
 }
 

@@ -43,7 +43,7 @@ struct Replay {
 // Who may use a cell: the family of one queue at a time, where it is not shared.
 void check_owner(Replay& replay, uint32_t pass, uint32_t resource, uint32_t cell, CellState& state, uint32_t queue);
 // A transition without transfer that keeps contents needs the owner; one that discards makes its queue the owner.
-void check_owner_of_transition(Replay& replay, const Scope& scope, uint32_t cell, CellState& state);
+void check_owner_of_transition(Replay& replay, const Scope& scope, uint32_t scope_id, uint32_t cell, CellState& state);
 // Release and acquire must be halves of one transfer.
 void check_transfer(Replay& replay, const Scope& scope, uint32_t scope_id, uint32_t cell, CellState& state);
 

@@ -140,8 +140,14 @@ void check_scope(const Submission& submission, const Scope& scope) {
 
 // ---- order ------------------------------------------------------------------------------------------------------
 
+// A wait for something else than the plan says; value 0: for nothing.
+struct OtherWait {
+  uint32_t index = kNone;
+  uint64_t value = 0;
+};
+
 // By batch and queue: how many batches of that queue are over before it begins.
-std::vector<std::vector<uint32_t>> batches_before(const Plan& plan) {
+std::vector<std::vector<uint32_t>> batches_before(const Plan& plan, const OtherWait& other = {}) {
   std::vector<std::vector<uint32_t>> before(plan.batches.size(), std::vector<uint32_t>(plan.queues.size(), 0));
   std::vector<std::vector<uint32_t>> on(plan.queues.size());  // batches so far
   struct Signalled {
@@ -157,10 +163,10 @@ std::vector<std::vector<uint32_t>> batches_before(const Plan& plan) {
     const Batch& batch = plan.batches[i];
     if (!on[batch.queue].empty()) join(before[i], before[on[batch.queue].back()]);
     before[i][batch.queue] = static_cast<uint32_t>(on[batch.queue].size());
-    for (const Wait& wait : plan.waits.subspan(batch.first_wait, batch.wait_count))
-      if (wait.frames_ago == 0)
+    for (uint32_t w = batch.first_wait; w < batch.first_wait + batch.wait_count; ++w)
+      if (const Wait& wait = plan.waits[w]; wait.frames_ago == 0)
         for (const Signalled& signal : signals[wait.queue])
-          if (signal.value == wait.value) {
+          if (signal.value == (w == other.index ? other.value : wait.value)) {
             join(before[i], before[signal.batch]);
             before[i][wait.queue] = std::max(before[i][wait.queue], position[signal.batch] + 1);
           }
@@ -171,24 +177,46 @@ std::vector<std::vector<uint32_t>> batches_before(const Plan& plan) {
   return before;
 }
 
-void check_after_across_queues(const Submission& submission) {
-  const Model& model = submission.model;
-  if (model.queue_count < 2) return;
-  const auto before = batches_before(model.input->plan);
-  std::vector<uint32_t> batch_of(model.input->graph.passes.size(), kNone), position(model.input->plan.batches.size()), on(model.queue_count);
-  for (uint32_t i = 0; i < position.size(); ++i) position[i] = on[model.input->plan.batches[i].queue]++;
+struct DeclaredOrder {
+  uint32_t first = 0, second = 0;  // batches of different queues
+  uint32_t before = 0, after = 0;  // program passes
+};
+std::vector<DeclaredOrder> orders_across_queues(const Model& model) {
+  std::vector<DeclaredOrder> orders;
+  if (model.queue_count < 2) return orders;
+  std::vector<uint32_t> batch_of(model.input->graph.passes.size(), kNone);
   for (const StepNode& step : model.steps)
     if (step.is_pass) batch_of[model.passes[step.index].program_pass] = step.batch;
   for (const PassNode& node : model.passes)
-    for (const dsl::PassId after : model.pass(node.plan_pass).after) {
-      const uint32_t first = batch_of[after.value], second = batch_of[node.program_pass];
-      if (first == kNone || second == kNone || model.input->plan.batches[first].queue == node.queue) continue;
-      if (before[second][model.input->plan.batches[first].queue] <= position[first])
-        submission.report.add({Hazard::order, "", model.input->graph.passes[after].name, model.pass_name(node.plan_pass),
-                               "`" + model.pass_name(node.plan_pass) + "` is declared to follow `" + model.input->graph.passes[after].name +
-                                   "`, but no wait of " + model.queue_name(node.queue) + " is for " +
-                                   model.queue_name(model.input->plan.batches[first].queue) + " after it"});
+    for (const dsl::PassId before : model.pass(node.plan_pass).after) {
+      const uint32_t first = batch_of[before.value], second = batch_of[node.program_pass];
+      if (first != kNone && second != kNone && model.input->plan.batches[first].queue != node.queue)
+        orders.push_back({first, second, before.value, node.program_pass});
     }
+  return orders;
+}
+
+bool is_kept(const Plan& plan, const DeclaredOrder& order, const std::vector<std::vector<uint32_t>>& before) {
+  const uint32_t queue = plan.batches[order.first].queue;
+  uint32_t position = 0;
+  for (uint32_t i = 0; i < order.first; ++i) position += plan.batches[i].queue == queue;
+  return before[order.second][queue] > position;
+}
+
+void check_after_across_queues(const Submission& submission) {
+  const Model& model = submission.model;
+  const Plan& plan = model.input->plan;
+  const std::vector<DeclaredOrder> orders = orders_across_queues(model);
+  if (orders.empty()) return;
+  const auto before = batches_before(plan);
+  for (const DeclaredOrder& order : orders) {
+    if (is_kept(plan, order, before)) continue;
+    const std::string &first = model.input->graph.passes.rows[order.before].name, &second = model.input->graph.passes.rows[order.after].name;
+    submission.report.add({Hazard::order, "", first, second,
+                           "`" + second + "` is declared to follow `" + first + "`, but no wait of " +
+                               model.queue_name(plan.batches[order.second].queue) + " is for " + model.queue_name(plan.batches[order.first].queue) +
+                               " after it"});
+  }
 }
 
 }  // namespace
@@ -213,6 +241,26 @@ void check_submission(const Model& model, Report& report) {
   }
   for (const Scope& scope : model.scopes) check_scope(submission, scope);
   check_after_across_queues(submission);
+}
+
+void require_declared_order(const Model& model, std::vector<bool>& required) {
+  const Plan& plan = model.input->plan;
+  const std::vector<DeclaredOrder> orders = orders_across_queues(model);
+  if (orders.empty()) return;
+  const auto is_needed = [&](const OtherWait& instead) {
+    const auto before = batches_before(plan, instead);
+    return !std::all_of(orders.begin(), orders.end(), [&](const DeclaredOrder& order) { return is_kept(plan, order, before); });
+  };
+  for (uint32_t id = 0; id < model.scopes.size(); ++id) {
+    const Scope& wait = model.scopes[id];
+    if (wait.kind != ScopeKind::wait || wait.frames_ago != 0 || !is_needed({wait.index, 0})) continue;
+    required[atom_of(id, AtomField::whole)] = true;
+    if (wait.value > 1 && !is_needed({wait.index, wait.value - 1})) continue;
+    required[atom_of(id, AtomField::value)] = true;
+    for (uint32_t other = 0; other < model.scopes.size(); ++other)
+      if (model.scopes[other].kind == ScopeKind::signal && model.scopes[other].queue == wait.other && model.scopes[other].value == wait.value)
+        required[atom_of(other, AtomField::whole)] = true;
+  }
 }
 
 }  // namespace rg::verify

@@ -288,7 +288,7 @@ void apply_to_cell(Replay& replay, const GroupNode& group, uint32_t cell, const 
                        "two barriers of one group cover " + replay.model.place(scope.resource, cell) + ", and one changes its layout or owner"});
   check_transition(replay, scope, *transition, cell, state);
   if (scope.transfer == Ownership::none)
-    check_owner_of_transition(replay, scope, cell, state);
+    check_owner_of_transition(replay, scope, *transition, cell, state);
   else
     check_transfer(replay, scope, *transition, cell, state);
   const Layout layout = layout_of_aspect(scope.new_layout, aspect_of_cell(replay.model.resources[scope.resource].partition, cell));

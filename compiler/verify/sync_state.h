@@ -100,7 +100,7 @@ struct CellState {
   uint32_t layout_scope = kNone;  // the barrier that set it
   uint32_t owner = kNone;         // queue; kNone: whoever comes first
   uint32_t released_by = kNone;   // a release whose acquire has not come
-  std::vector<uint32_t> owner_scopes;  // release and acquire that made `owner` the owner
+  std::vector<uint32_t> owner_scopes;  // release and acquire, or the discard, that made `owner` the owner
   Without without;                // only where proofs are kept, until the next write
 };
 

@@ -1,6 +1,7 @@
 #include "compiler/verify/verify.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "compiler/verify/alias.h"
@@ -33,19 +34,51 @@ bool has_transfers(const Plan& plan) {
          std::any_of(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), transfers);
 }
 
-// On devices where kinds of queues share a family transfers are not recorded: two kinds, or all.
-void prove_united(const Input& input, const std::vector<int64_t>& extents, const std::vector<Partition>& partitions, Report& report) {
-  if (!has_transfers(input.plan)) return;
-  const Families apart = families_of(input.plan);
-  std::set<Families> proved{apart};
+// visit(families) for the devices where kinds of queues share a family, so that transfers are not recorded: two kinds, or all.
+void for_each_union(const Plan& plan, auto visit) {
+  if (!has_transfers(plan)) return;
+  const Families apart = families_of(plan);
+  std::set<Families> seen{apart};
   for (uint32_t a = 0; a < 3; ++a)
     for (uint32_t b = 0; b <= 3; ++b) {
       Families united = apart;
       for (uint32_t& family : united)
         if (b == 3 || family == b) family = a;
-      if (report.full() || !proved.insert(united).second) continue;
-      replay_sync(make_model(input, extents, partitions, united, report), false, report);
+      if (seen.insert(united).second) visit(united);
     }
+}
+
+void prove_united(const Input& input, const std::vector<int64_t>& extents, const std::vector<Partition>& partitions, Report& report) {
+  for_each_union(input.plan, [&](const Families& united) {
+    if (!report.full()) replay_sync(make_model(input, extents, partitions, united, report), false, report);
+  });
+}
+
+// What only a device with fewer families needs is needed, too.
+void require_united(const Input& input, const std::vector<int64_t>& extents, const std::vector<Partition>& partitions, const Model& model,
+                    std::vector<bool>& required, Report& report) {
+  std::map<std::pair<ScopeKind, uint32_t>, uint32_t> scope_of_row;
+  for (uint32_t id = 0; id < model.scopes.size(); ++id) scope_of_row[{model.scopes[id].kind, model.scopes[id].index}] = id;
+  for_each_union(input.plan, [&](const Families& united) {
+    const Model other = make_model(input, extents, partitions, united, report);
+    const SyncResult result = replay_sync(other, true, report);
+    for (Atom atom = 0; atom < result.required.size(); ++atom) {
+      if (!result.required[atom]) continue;
+      const Scope& scope = other.scopes[scope_of(atom)];
+      required[scope_of_row.at({scope.kind, scope.index}) * kAtomsOfScope + atom % kAtomsOfScope] = true;
+    }
+  });
+}
+
+// Redundancy of a plan that is wrong means nothing.
+void find_redundancy(const Input& input, const std::vector<int64_t>& extents, const std::vector<Partition>& partitions, const Model& model,
+                     SyncResult& sync, Report& report) {
+  require_declared_order(model, sync.required);
+  Report apart(1);
+  check_redundancy(model, sync.required, apart);
+  if (!apart.empty()) require_united(input, extents, partitions, model, sync.required, report);
+  check_redundancy(model, sync.required, report);
+  check_release_redundancy(model, sync.released, report);
 }
 
 void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<Partition> partitions, const VerifyOptions& options, Report& report) {
@@ -54,14 +87,11 @@ void prove(const Input& input, const std::vector<int64_t>& extents, std::vector<
   check_submission(model, report);
   check_work(model, extents, report);
   check_boundaries(model, report);
-  const SyncResult sync = replay_sync(model, options.irredundancy, report);
+  SyncResult sync = replay_sync(model, options.irredundancy, report);
   prove_united(input, extents, partitions, report);
   check_aliases(model, sync, report);
   replay_contents(model, extents, report);
-  // Redundancy of a plan that is wrong means nothing.
-  if (!options.irredundancy || !report.empty()) return;
-  check_redundancy(model, sync.required, report);
-  check_release_redundancy(model, sync.released, report);
+  if (options.irredundancy && report.empty()) find_redundancy(input, extents, partitions, model, sync, report);
 }
 
 }  // namespace

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <bit>
+
+#include "compiler/access_table.h"
+#include "compiler/happens_before.h"
+#include "compiler/obligations.h"
+#include "compiler/synchronise.h"
+
+namespace rg::compiler {
+namespace {
+
+// Every fact rests on one derivation. An atom on which none rests goes; of the others, one goes if each fact that rests on it has another derivation
+// without it. Facts only lose derivations, so one look at each atom leaves none that could go.
+class Dropper {
+ public:
+  Dropper(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, SyncPlan& sync)
+      : frame_(frame), schedule_(schedule), sync_(sync), order_(frame, schedule, sync), signals_on_(schedule.queues.size()), watched_by_(order_.scopes.size()) {
+    Obligations found = find_obligations(frame, schedule, lines, sync, order_);
+    facts_ = std::move(found.facts), without_ = std::move(found.without), last_uses_ = std::move(found.last_uses);
+    rests_on_.resize(facts_.size());
+    std::vector<SyncAtom> atoms;
+    for (uint32_t fact = 0; fact < facts_.size(); ++fact) {
+      if (order_.derive(facts_[fact], atoms))
+        rest(fact, atoms);
+      else
+        sync.unproved += !facts_[fact].optional;
+    }
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+      if (order_.scopes[s].kind == SyncKind::signal) signals_on_[order_.scopes[s].queue].push_back(s);
+  }
+
+  void run(const std::vector<Line>& lines) {
+    // Waits cost most, those for the frame before keep frames apart.
+    for (const bool before : {true, false})
+      for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+        if (order_.scopes[s].kind == SyncKind::wait && (order_.scopes[s].number < 0) == before) drop(s, {s, AtomField::whole, 0});
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+      if (order_.scopes[s].kind == SyncKind::signal && !order_.scopes[s].everything) drop(s, {s, AtomField::whole, 0});
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+      while (wait_earlier(s)) continue;
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+      if (order_.scopes[s].kind == SyncKind::signal && !order_.scopes[s].everything) drop(s, {s, AtomField::whole, 0});
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s)
+      if (order_.scopes[s].kind == SyncKind::barrier) order_.scopes[s].changes ? drop_discard(s) : drop(s, {s, AtomField::whole, 0});
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s) drop_bits(s);
+    write_back();
+    trim_releases(lines);
+  }
+
+ private:
+  struct Watch {
+    AtomField field;
+    uint8_t bit;
+    uint32_t fact;
+  };
+
+  void rest(uint32_t fact, const std::vector<SyncAtom>& atoms) {
+    rests_on_[fact] = atoms;
+    for (const SyncAtom& atom : atoms) watched_by_[atom.scope].push_back({atom.field, atom.bit, fact});
+  }
+
+  // True if what `change` does to the scope leaves all facts standing; otherwise nothing has changed.
+  template <class Change>
+  bool attempt(uint32_t s, const SyncAtom& atom, Change change, const std::vector<SyncFact>& instead = {}) {
+    const SyncScope saved = order_.scopes[s];
+    change(order_.scopes[s]);
+    order_.refresh(s);
+    std::vector<std::pair<uint32_t, std::vector<SyncAtom>>> derived;
+    std::vector<SyncAtom> atoms;
+    bool holds = true;
+    for (const SyncFact& fact : instead) {
+      holds = holds && order_.derive(fact, atoms);
+      derived.emplace_back(static_cast<uint32_t>(facts_.size() + derived.size()), atoms);
+    }
+    const std::vector<Watch>& watches = watched_by_[s];
+    for (size_t i = 0; i < watches.size() && holds; ++i) {
+      const Watch& watch = watches[i];
+      if (watch.field != atom.field || watch.bit != atom.bit || !rests_on(watch.fact, atom) || is_about(watch.fact, order_.scopes[s], s)) continue;
+      holds = order_.derive(facts_[watch.fact], atoms);
+      derived.emplace_back(watch.fact, atoms);
+    }
+    if (!holds) {
+      order_.scopes[s] = saved;
+      order_.refresh(s);
+      return false;
+    }
+    facts_.insert(facts_.end(), instead.begin(), instead.end());
+    rests_on_.resize(facts_.size());
+    for (const auto& [fact, on] : derived) rest(fact, on);
+    return true;
+  }
+  bool rests_on(uint32_t fact, const SyncAtom& atom) const {
+    return std::find(rests_on_[fact].begin(), rests_on_[fact].end(), atom) != rests_on_[fact].end();
+  }
+  // The fact is gone with the transition.
+  bool is_about(uint32_t fact, const SyncScope& scope, uint32_t s) const {
+    if (!scope.gone || !scope.changes) return false;
+    const SyncSource& source = order_.sources[facts_[fact].source];
+    return (source.kind == SyncSource::Kind::transition && source.scope == s) || (facts_[fact].kind == SyncFact::Kind::feeds && facts_[fact].scope == s);
+  }
+  void drop_discard(uint32_t s) {
+    const auto found = without_.find(s);
+    if (found == without_.end()) return;
+    attempt(s, {s, AtomField::whole, 0}, [](SyncScope& scope) { scope.gone = true; }, found->second);
+  }
+
+  void drop(uint32_t s, const SyncAtom& atom) {
+    attempt(s, atom, [](SyncScope& scope) { scope.gone = true; });
+  }
+
+  bool wait_earlier(uint32_t s) {
+    const SyncScope& wait = order_.scopes[s];
+    if (wait.kind != SyncKind::wait || wait.gone || wait.number < 0) return false;  // the frame before: all of it, so that other plans may come before
+    int64_t earlier = -1;
+    const std::vector<uint32_t>& signals = signals_on_[wait.from_queue];
+    auto at = std::partition_point(signals.begin(), signals.end(), [&](uint32_t signal) { return order_.scopes[signal].number < wait.number; });
+    while (at != signals.begin() && earlier < 0)
+      if (const SyncScope& signal = order_.scopes[*--at]; !signal.gone) earlier = signal.number;
+    return attempt(s, {s, AtomField::value, 0}, [&](SyncScope& scope) { scope.number = earlier; });
+  }
+
+  void drop_bits(uint32_t s) {
+    const SyncScope& scope = order_.scopes[s];
+    if (scope.gone || scope.everything) return;
+    const auto each = [&](AtomField field, auto member) {
+      for (uint64_t rest = scope.*member; rest; rest &= rest - 1) {
+        const uint64_t bit = rest & ~(rest - 1);
+        if (scope.kind != SyncKind::barrier && scope.*member == bit) continue;
+        attempt(s, {s, field, static_cast<uint8_t>(std::countr_zero(bit))}, [&](SyncScope& changed) { changed.*member &= ~bit; });
+      }
+    };
+    each(AtomField::src_stage, &SyncScope::src), each(AtomField::src_access, &SyncScope::src_accesses);
+    each(AtomField::dst_stage, &SyncScope::dst), each(AtomField::dst_access, &SyncScope::dst_accesses);
+  }
+
+  void write_back() {
+    for (const SyncScope& scope : order_.scopes) {
+      if (scope.kind == SyncKind::wait) {
+        BatchWait& wait = sync_.batches[scope.slot].waits[scope.index];
+        wait.stages = scope.gone ? 0 : scope.dst;
+        wait.batch = scope.number < 0 ? kNone : static_cast<uint32_t>(scope.number);
+      } else if (scope.kind == SyncKind::signal) {
+        sync_.batches[scope.slot].signal = scope.gone ? 0 : scope.src;
+      } else {
+        CellBarrier& b = sync_.groups[scope.slot][scope.index];
+        b.src_stages = scope.src, b.dst_stages = scope.dst, b.src_accesses = scope.src_accesses, b.dst_accesses = scope.dst_accesses;
+        b.dropped = scope.gone;
+      }
+    }
+    for (BatchSync& batch : sync_.batches) std::erase_if(batch.waits, [](const BatchWait& wait) { return wait.stages == 0; });
+    for (std::vector<CellBarrier>& group : sync_.groups) std::erase_if(group, [](const CellBarrier& b) { return b.dropped; });
+  }
+
+  // Releases of a resource wait for all its last users together: what waits to and fro have ordered before one of them need not be named again.
+  void trim_releases(const std::vector<Line>& lines) {
+    if (schedule_.queues.size() == 1) return;
+    find_last_slots(lines);
+    std::map<uint32_t, std::vector<uint32_t>> uses;  // by resource
+    for (const uint32_t use : last_uses_) uses[frame_.cells[order_.sources[use].cell].resource].push_back(use);
+    std::vector<Release> trimmed;
+    for (size_t i = 0; i < sync_.releases.size();) {
+      std::vector<Release> rows;
+      for (const uint32_t resource = sync_.releases[i].resource; i < sync_.releases.size() && sync_.releases[i].resource == resource; ++i)
+        rows.push_back(sync_.releases[i]);
+      trim(rows, uses[rows.front().resource]);
+      trimmed.insert(trimmed.end(), rows.begin(), rows.end());
+    }
+    sync_.releases = std::move(trimmed);
+  }
+  void find_last_slots(const std::vector<Line>& lines) {
+    for (const Line& line : lines)
+      for (const Epoch& epoch : line.epochs)
+        for (const Event& event : epoch.events) {
+          uint32_t& last = last_slot_[{frame_.cells[line.cell].resource, event.queue}];
+          last = std::max(last, schedule_.slot_before(event.segment));
+        }
+  }
+  void trim(std::vector<Release>& rows, const std::vector<uint32_t>& uses) {
+    for (size_t i = rows.size(); i-- > 0 && rows.size() > 1;) {
+      std::vector<Release> fewer = rows;
+      fewer.erase(fewer.begin() + static_cast<ptrdiff_t>(i));
+      if (wait_for_all(fewer, uses)) rows = std::move(fewer);
+    }
+    for (size_t i = 0; i < rows.size(); ++i)
+      for (const auto member : {&Release::accesses, &Release::stages})
+        for (uint64_t rest = rows[i].*member; rest; rest &= rest - 1) {
+          std::vector<Release> less = rows;
+          less[i].*member &= ~(rest & ~(rest - 1));
+          if (less[i].stages != 0 && wait_for_all(less, uses)) rows = std::move(less);
+        }
+  }
+  bool wait_for_all(const std::vector<Release>& rows, const std::vector<uint32_t>& uses) {
+    return std::all_of(uses.begin(), uses.end(), [&](uint32_t use) {
+      return std::any_of(rows.begin(), rows.end(), [&](const Release& row) { return waits_for(row, use); });
+    });
+  }
+  bool waits_for(const Release& row, uint32_t use) {
+    const SyncSource& source = order_.sources[use];
+    const bool named = source.access ? (row.stages & source.stage) && (row.accesses & source.access) : (with_earlier(row.stages) & source.stage) != 0;
+    if (row.queue == source.queue && named) return true;
+    const uint32_t point = order_.point_of_slot(last_slot_.at({row.resource, row.queue}) + 1);
+    std::vector<SyncAtom> atoms;
+    return point >= source.after && order_.derive({SyncFact::Kind::follows, use, point, row.queue, with_earlier(row.stages), 0, 0, UINT32_MAX}, atoms);
+  }
+
+  const Frame& frame_;
+  const Schedule& schedule_;
+  SyncPlan& sync_;
+  HappensBefore order_;
+  std::vector<SyncFact> facts_;
+  std::map<uint32_t, std::vector<SyncFact>> without_;
+  std::vector<uint32_t> last_uses_;
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> last_slot_;  // of transients, by resource and queue
+  std::vector<std::vector<uint32_t>> signals_on_;  // by queue: scopes
+  std::vector<std::vector<SyncAtom>> rests_on_;  // by fact
+  std::vector<std::vector<Watch>> watched_by_;   // by scope
+};
+
+}  // namespace
+
+void drop_redundant(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, SyncPlan& sync) {
+  Dropper(frame, schedule, lines, sync).run(lines);
+}
+
+}  // namespace rg::compiler
