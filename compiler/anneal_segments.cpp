@@ -38,20 +38,92 @@ class Annealer {
   }
 
   Segments run(uint64_t evaluations) {
-    constexpr double kHot = 0.05, kCold = 0.0005;
+    const uint64_t first = evaluations * 3 / 10;
+    cool(first);
+    segments_ = best_;
+    count_live();
+    squeeze(evaluations - first);
+    return best_;
+  }
+
+ private:
+  // All segments near the peak at once, smoothly.
+  void cool(uint64_t evaluations) {
+    constexpr double kHot = 0.5, kCold = 0.0005;
     for (uint64_t i = 0; i < evaluations; ++i) {
       const double progress = static_cast<double>(i) / static_cast<double>(evaluations);
       if ((i & 1023) == 0) heat_ = kHot * std::pow(kCold / kHot, progress), rescale();
       step();
     }
-    return best_;
+    rescale();
   }
 
- private:
-  // Weighs segments near the peak; ^8 keeps slopes elsewhere, so that a full segment's neighbours empty too.
+  // Only what is above a target counts, so that everything else drifts freely; the target falls whenever it is met. Boundaries that drift left
+  // without use go where it is tight.
+  void squeeze(uint64_t evaluations) {
+    constexpr double kHeat = 0.003;
+    squeezes_ = true, heat_ = kHeat;
+    lower_target();
+    for (uint64_t i = 0; i < evaluations; ++i) {
+      if ((i & 255) == 0) {
+        if (note_peak()) lower_target();
+        if ((i & 4095) == 0) move_boundary();
+        find_hot_nodes(target_);
+      }
+      step();
+    }
+    note_peak();
+  }
+  void lower_target() {
+    constexpr double kStep = 0.01;
+    target_ = best_peak_ * (1 - kStep);
+    inverse_ = 1 / std::max(1.0, target_);
+  }
+  bool note_peak() {
+    const double peak = *std::max_element(live_.begin(), live_.end());
+    if (peak >= best_peak_) return false;
+    best_peak_ = peak, best_ = segments_;
+    return true;
+  }
+
+  void count_live() {
+    std::fill(live_.begin(), live_.end(), 0.0);
+    for (uint32_t i = 0; i < problem_.items.size(); ++i) {
+      intervals_[i] = interval_of(problem_.items[i], segments_);
+      for (uint32_t s = intervals_[i].begin; s <= intervals_[i].end; ++s) live_[s] += weights_[i];
+    }
+  }
+
+  // Joins two segments that neither an edge nor the target keeps apart and opens an empty one beside a segment that is too full. O(problem).
+  void move_boundary() {
+    const auto count = static_cast<uint32_t>(live_.size());
+    std::vector<double> begins(count);
+    for (uint32_t i = 0; i < intervals_.size(); ++i) begins[intervals_[i].begin] += weights_[i];
+    std::vector<bool> tied(count);
+    for (uint32_t node = 0; node < problem_.nodes; ++node)
+      for (const auto& link : after_.of(node)) tied[segments_[node]] = tied[segments_[node]] || (link.gap == 1 && segments_[link.node] == segments_[node] + 1);
+    std::vector<uint32_t> spare, full;
+    for (uint32_t s = 0; s < count; ++s) {
+      if (s + 1 < count && !tied[s] && live_[s] + begins[s + 1] <= target_) spare.push_back(s);
+      if (live_[s] > target_) full.push_back(s);
+    }
+    if (spare.empty() || full.empty()) return;
+    const uint32_t join = spare[random_.below(static_cast<uint32_t>(spare.size()))], tight = full[random_.below(static_cast<uint32_t>(full.size()))];
+    if (tight == join || tight == join + 1) return;
+    const uint32_t empty = (tight > join ? tight - 1 : tight) + random_.below(2);
+    for (uint32_t& segment : segments_) {
+      segment -= segment > join;
+      segment += segment >= empty;
+    }
+    count_live();
+  }
+
+  // A high power weighs segments near the peak and still keeps slopes elsewhere, so that a full segment's neighbours empty too.
   double energy(double live) const {
-    const double x = live * inverse_, x2 = x * x, x4 = x2 * x2;
-    return x4 * x4;
+    const double x = live * inverse_;
+    if (squeezes_) return std::max(0.0, x - 1);
+    const double x2 = x * x, x4 = x2 * x2, x8 = x4 * x4, x16 = x8 * x8;
+    return x16 * x16;
   }
   void rescale() {
     const double peak = *std::max_element(live_.begin(), live_.end());
@@ -59,7 +131,7 @@ class Annealer {
     inverse_ = 1 / std::max(1.0, best_peak_);
     find_hot_nodes(0.9 * peak);
   }
-  // Those whose moves can lower a segment near the peak.
+  // Those whose moves can lower a segment above the threshold.
   void find_hot_nodes(double threshold) {
     hot_.clear();
     for (uint32_t i = 0; i < intervals_.size(); ++i) {
@@ -67,7 +139,7 @@ class Annealer {
       if (*std::max_element(begin, end) > threshold) hot_.insert(hot_.end(), problem_.items[i].users.begin(), problem_.items[i].users.end());
     }
   }
-  uint32_t pick_node() { return random_.below(4) != 0 ? hot_[random_.below(static_cast<uint32_t>(hot_.size()))] : random_.below(problem_.nodes); }
+  uint32_t pick_node() { return !hot_.empty() && random_.below(4) != 0 ? hot_[random_.below(static_cast<uint32_t>(hot_.size()))] : random_.below(problem_.nodes); }
 
   uint32_t pick_target(uint32_t node) {
     uint32_t low = 0, high = static_cast<uint32_t>(live_.size()) - 1;
@@ -145,7 +217,7 @@ class Annealer {
   }
 
   void note_best() {
-    if (live_.size() > 64) return;  // a sweep costs more than the move; rescale() looks regularly
+    if (live_.size() > 64 || squeezes_) return;  // a sweep costs more than the move; others look regularly
     const double peak = *std::max_element(live_.begin(), live_.end());
     if (peak < best_peak_) best_peak_ = peak, best_ = segments_;
   }
@@ -170,7 +242,8 @@ class Annealer {
   std::vector<Touched> touched_;
   std::vector<uint32_t> hot_;
   uint64_t mark_ = 0;
-  double inverse_ = 1, heat_ = 0, best_peak_ = 0;
+  double inverse_ = 1, heat_ = 0, best_peak_ = 0, target_ = 0;
+  bool squeezes_ = false;
 };
 
 }  // namespace

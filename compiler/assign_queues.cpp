@@ -46,7 +46,7 @@ class Eligibility {
   // Empty, or why the pass has to stay at home.
   std::string why_not(uint32_t pass) const {
     const dsl::Pass& row = frame_.pass(pass);
-    if (options_.keep_home.contains(row.name)) return "kept by `--no-async=" + row.name + "`";
+    if (options_.no_async.contains(row.name)) return "kept by `--no-async=" + row.name + "`";
     if (clears_depth(frame_, row)) return "only a graphics queue clears depth";
     for (const Use& use : frame_.uses_of(pass)) {
       const dsl::Resource& resource = frame_.resource_of(use.cell);
@@ -173,6 +173,7 @@ class Assigner {
   QueuePlan run() {
     find_homes();
     order_importers();
+    keep_renderings_together();
     group_neighbours();
     QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort);
     const LayoutGuard guard(frame_, one_queue_);
@@ -223,6 +224,17 @@ class Assigner {
       }
       problem_.edges.push_back({first, node});
       plan_.extra.emplace_back(one_queue_.order[first], pass);
+    }
+  }
+
+  // A rendering begins when all its passes can run.
+  void keep_renderings_together() {
+    std::vector<uint32_t> node_of(frame_.passes.size(), UINT32_MAX);
+    for (uint32_t node = 0; node < one_queue_.order.size(); ++node) node_of[one_queue_.order[node]] = node;
+    const auto leader = [&](uint32_t node) { return node_of[one_queue_.leader_of[one_queue_.order[node]]]; };
+    for (size_t i = 0, count = problem_.edges.size(); i < count; ++i) {
+      const QueueProblem::Edge edge = problem_.edges[i];
+      if (leader(edge.after) != edge.after && leader(edge.before) != leader(edge.after)) problem_.edges.push_back({edge.before, leader(edge.after)});
     }
   }
 

@@ -10,6 +10,7 @@
 #include "compiler/judge.h"
 #include "compiler/profiles.h"
 #include "compiler/variant_space.h"
+#include "dsl/closest.h"
 
 namespace rg::compiler {
 namespace {
@@ -115,6 +116,34 @@ std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph
 
 }  // namespace
 
+namespace {
+
+// Names that switches give have to exist, or nothing would be switched off.
+void check_switches(const std::string& root_path, const dsl::Program& program, const PlanOptions& options, dsl::Diagnostics& diagnostics) {
+  const auto check = [&](const char* flag, const std::set<std::string>& names, auto rows_of) {
+    for (const std::string& name : names) {
+      const auto has = [&](const auto& rows) { return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; }); };
+      const bool known = has(program.graphs) ||
+                         std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
+      if (known) continue;
+      dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::UnknownSubject, {}, {std::string(flag) + "=" + name, root_path});
+      std::vector<std::string_view> all;
+      for (const dsl::Graph& graph : program.graphs)
+        for (const auto& row : rows_of(graph)) all.push_back(row.name);
+      if (const std::string guess = dsl::closest(name, all); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
+    }
+  };
+  const auto passes = [](const dsl::Graph& graph) -> const auto& { return graph.passes; };
+  const auto resources = [](const dsl::Graph& graph) -> const auto& { return graph.resources; };
+  check("--no-aliasing", options.no_aliasing, resources);
+  check("--no-discard", options.no_discard, resources);
+  check("--no-async", options.no_async, passes);
+  check("--no-reorder", options.no_reorder, passes);
+  check("--no-merge", options.no_merge, passes);
+}
+
+}  // namespace
+
 // The whole compiler, top to bottom. Each step consumes only what is above it.
 CompileResult compile(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
   CompileResult result;
@@ -156,6 +185,9 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // What the graphs ask of devices, beside what the target profiles promise.
   for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
+
+  check_switches(root_path, result.program, options.plan, diagnostics);
+  if (diagnostics.has_errors()) return result;
 
   // Queues that passes insist on.
   for (const CompiledGraph& graph : result.graphs) check_queues(result.program, graph.graph, graph.configurations, diagnostics);

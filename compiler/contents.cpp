@@ -32,10 +32,12 @@ ContentsOfUses find_contents(const Frame& frame, const std::vector<Line>& lines)
     for (size_t i = 0; i < line.epochs.size(); ++i) {
       const Epoch& epoch = line.epochs[i];
       const bool last = i + 1 == line.epochs.size();
-      const bool needed = epoch.events.size() > 1 ||
+      const bool one_by_one = epoch.share == Share::none && epoch.writes;  // passes of one rendering, or one pass
+      const bool needed = (epoch.events.size() > 1 && !one_by_one) ||
                           (last ? needed_at_exit(resource, epoch.age, frame.grids[frame.cells[line.cell].resource].ages) : line.epochs[i + 1].needs);
       for (size_t e = 0; e < epoch.events.size(); ++e)
-        result[use_index(frame, epoch.events[e].pass, line.cell + epoch.age * stride)] = {defined || (epoch.writes && e > 0), needed};
+        result[use_index(frame, epoch.events[e].pass, line.cell + epoch.age * stride)] = {defined || (epoch.writes && e > 0),
+                                                                                           needed || (one_by_one && e + 1 < epoch.events.size())};
       defined = defined || epoch.writes;
     }
   }

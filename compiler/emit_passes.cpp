@@ -43,7 +43,8 @@ Index engine_set_of(const dsl::Program& program, const std::string& bind) {
   return found == program.engine_sets.end() ? kNone : static_cast<Index>(found - program.engine_sets.begin());
 }
 
-void emit_pass(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Index host_slot, Expressions& exprs, PlanData& plan) {
+void emit_pass(const PlanParts& parts, const PlanIndices& indices, size_t position, Index host_slot, Expressions& exprs, PlanData& plan) {
+  const uint32_t pass = parts.schedule.order[position];
   const dsl::Pass& from = parts.frame.pass(pass);
   Pass row;
   row.name = intern(from.name), row.module = intern(from.module);
@@ -56,7 +57,7 @@ void emit_pass(const PlanParts& parts, const PlanIndices& indices, uint32_t pass
   row.host_slot = host_slot;
   row.first_mip_limit = static_cast<Index>(plan.mip_limits.size()), row.mip_limit_count = static_cast<Index>(from.mip_limits.size());
   for (const dsl::MipLimit& limit : from.mip_limits) plan.mip_limits.push_back({indices.resource[limit.image.value], limit.mip});
-  emit_rendering(parts, indices, pass, exprs, plan, row);
+  emit_rendering(parts, indices, position, exprs, plan, row);
   emit_work(parts, indices, pass, exprs, plan, row);
   plan.passes.push_back(row);
 }
@@ -65,7 +66,8 @@ void emit_pass(const PlanParts& parts, const PlanIndices& indices, uint32_t pass
 
 void emit_passes(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
   const std::vector<Index> slots = host_slots(*parts.frame.graph);
-  for (const uint32_t pass : parts.schedule.order) emit_pass(parts, indices, pass, slots[parts.frame.passes[pass]], exprs, plan);
+  for (size_t at = 0; at < parts.schedule.order.size(); ++at)
+    emit_pass(parts, indices, at, slots[parts.frame.passes[parts.schedule.order[at]]], exprs, plan);
 }
 
 }  // namespace rg::compiler

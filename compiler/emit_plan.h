@@ -41,7 +41,8 @@ ClearValue plan_clear(const dsl::ClearValue& value, uint32_t aspects);
 void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);
 void emit_passes(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);
 void emit_work(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Expressions& exprs, PlanData& plan, Pass& row);
-void emit_rendering(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Expressions& exprs, PlanData& plan, Pass& row);
+// `position` of the pass in Schedule::order.
+void emit_rendering(const PlanParts& parts, const PlanIndices& indices, size_t position, Expressions& exprs, PlanData& plan, Pass& row);
 // By slot of the schedule: the plan's group; kNone: none.
 std::vector<Index> groups_of_slots(const PlanParts& parts);
 void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);

@@ -28,27 +28,56 @@ Found find_uses(const PlanParts& parts, uint32_t pass, const dsl::Access& access
   return found;
 }
 
-LoadOp load_op(const dsl::Pass& pass, const dsl::Access& access, const Found& found) {
+LoadOp load_op(const dsl::Pass& pass, const dsl::Access& access, const Found& found, bool may_discard) {
   if (access.clear) return LoadOp::clear;
-  return needs_contents(pass, access) && found.defined_before ? LoadOp::load : LoadOp::dont_care;
+  return (needs_contents(pass, access) || !may_discard) && found.defined_before ? LoadOp::load : LoadOp::dont_care;
 }
-// NONE leaves memory alone, so a read-only attachment really only reads.
-StoreOp store_op(const Effect& effect, const Found& found) {
-  if (effect.writes == 0) return StoreOp::none;
-  return found.needed_after ? StoreOp::store : StoreOp::dont_care;
+// NONE leaves memory alone, so an attachment that is only read really only is.
+StoreOp store_op(bool writes, const Found& found, bool may_discard) {
+  if (!writes) return StoreOp::none;
+  return found.needed_after || !may_discard ? StoreOp::store : StoreOp::dont_care;
 }
 
-Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, const dsl::Access& access) {
+// The passes of a rendering, as they are recorded.
+using Members = std::vector<uint32_t>;
+Members members_of(const Schedule& schedule, size_t position) {
+  Members members;
+  for (size_t at = position; at < schedule.order.size() && schedule.leader_of[schedule.order[at]] == schedule.order[position]; ++at)
+    members.push_back(schedule.order[at]);
+  return members;
+}
+
+// The place of an attachment among the accesses of its pass, the same in all passes of the rendering.
+enum class Slot : uint8_t { color, depth, stencil };
+Slot slot_of(Role role) { return role == Role::color ? Slot::color : role == Role::stencil ? Slot::stencil : Slot::depth; }
+std::vector<const dsl::Access*> attachments_of(const dsl::Pass& pass) {
+  std::vector<const dsl::Access*> found;
+  for (const dsl::Access& access : pass.accesses)
+    if (access.role == Role::color) found.push_back(&access);
+  for (const dsl::Access& access : pass.accesses)
+    if (is_attachment(access.role) && access.role != Role::color) found.push_back(&access);
+  return found;
+}
+
+// The first pass says what is loaded, the last what is wanted.
+Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, const Members& members, size_t number) {
+  const dsl::Pass& pass = parts.frame.pass(members.front());
+  const dsl::Access& access = *attachments_of(pass)[number];
   const dsl::Resource& resource = parts.frame.graph->resources[access.resource];
-  const Found found = find_uses(parts, pass, access);
+  const Found found = find_uses(parts, members.front(), access);
   const Range range = resolved_range(resource, access);
-  const Effect effect = effect_of(parts.frame.pass(pass), access, range.aspects);
+  bool writes = false;
+  for (const uint32_t member : members) {
+    const dsl::Pass& other = parts.frame.pass(member);
+    writes = writes || effect_of(other, *attachments_of(other)[number], range.aspects).writes != 0;
+  }
   Attachment row;
   row.ref = plan_ref(indices, access.resource, access.age);
   row.range = range;
   row.layout = found.layout;
-  row.load = load_op(parts.frame.pass(pass), access, found);
-  row.store = store_op(effect, found);
+  const bool discards = may_discard(parts.options, resource);
+  row.load = load_op(pass, access, found, discards);
+  row.store = store_op(writes, find_uses(parts, members.back(), *attachments_of(parts.frame.pass(members.back()))[number]), discards);
   if (access.clear) row.clear = plan_clear(*access.clear, range.aspects);
   return row;
 }
@@ -83,25 +112,27 @@ void set_size(const PlanParts& parts, const dsl::Access& access, Expressions& ex
 
 }  // namespace
 
-void emit_rendering(const PlanParts& parts, const PlanIndices& indices, uint32_t pass_index, Expressions& exprs, PlanData& plan, Pass& row) {
+void emit_rendering(const PlanParts& parts, const PlanIndices& indices, size_t position, Expressions& exprs, PlanData& plan, Pass& row) {
+  const uint32_t pass_index = parts.schedule.order[position];
   const dsl::Pass& pass = parts.frame.pass(pass_index);
   if (pass.kind != dsl::PassKind::raster) return;
+  if (parts.schedule.leader_of[pass_index] != pass_index) {  // goes on in the one of the pass before
+    row.rendering = static_cast<Index>(plan.renderings.size()) - 1;
+    return;
+  }
+  const Members members = members_of(parts.schedule, position);
+  const std::vector<const dsl::Access*> attachments = attachments_of(pass);
   Rendering rendering;
   rendering.first_color = static_cast<Index>(plan.attachments.size());
-  bool first = true;
-  const auto add = [&](const dsl::Access& access) {
-    Attachment attachment = attachment_row(parts, indices, pass_index, access);
-    set_resolve(parts, indices, pass_index, access, attachment);
-    set_size(parts, access, exprs, first, rendering);
-    first = false;
-    plan.attachments.push_back(attachment);
-    return static_cast<Index>(plan.attachments.size() - 1);
-  };
-  for (const dsl::Access& access : pass.accesses)
-    if (access.role == Role::color) add(access), ++rendering.color_count;
-  for (const dsl::Access& access : pass.accesses) {
-    if (access.role == Role::depth || access.role == Role::depth_readonly) rendering.depth = add(access);
-    if (access.role == Role::stencil) rendering.stencil = add(access);
+  for (size_t i = 0; i < attachments.size(); ++i) {
+    const Index index = static_cast<Index>(plan.attachments.size());
+    plan.attachments.push_back(attachment_row(parts, indices, members, i));
+    set_resolve(parts, indices, members.back(), *attachments[i], plan.attachments.back());
+    set_size(parts, *attachments[i], exprs, i == 0, rendering);
+    const Slot slot = slot_of(attachments[i]->role);
+    if (slot == Slot::color) ++rendering.color_count;
+    if (slot == Slot::depth) rendering.depth = index;
+    if (slot == Slot::stencil) rendering.stencil = index;
   }
   row.rendering = static_cast<Index>(plan.renderings.size());
   plan.renderings.push_back(rendering);

@@ -81,7 +81,7 @@ void emit_resources(const PlanParts& parts, const PlanIndices& indices, Expressi
     row.import_slot = slots[r];
     row.concurrent = parts.sync.concurrent[r];
     if (row.lifetime == rg::Lifetime::transient)
-      row.no_alias = row.no_alias || parts.sync.scattered[r] || parts.options.keep_apart.contains(std::string(row.name));
+      row.no_alias = row.no_alias || parts.sync.scattered[r] || parts.options.no_aliasing.contains(std::string(row.name));
     plan.resources.push_back(row);
   }
 }

@@ -20,7 +20,26 @@ Effect gpu_effect(const Effect& effect) {
   return result;
 }
 
-void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segment, uint32_t queue) {
+// What a rendering does to a cell, or a pass that is alone: `uses` are those of its passes. Contents that the first does not need come from within.
+struct Common {
+  Use use;
+  std::vector<const Use*> uses;
+};
+Common common_use(std::vector<const Use*>::const_iterator first, std::vector<const Use*>::const_iterator last) {
+  Common common{**first, {first, last}};
+  for (++first; first != last; ++first) {
+    Effect effect = (*first)->effect;
+    if (common.use.writes() && !common.use.needs) effect.reads = 0, effect.read_stages = 0;
+    merge(common.use.effect, effect);
+    if ((*first)->share != common.use.share) common.use.share = Share::none;
+    if (!common.use.writes()) common.use.needs = common.use.needs || (*first)->needs;
+  }
+  return common;
+}
+
+void add(std::vector<Epoch>& epochs, uint32_t age, const Common& common, const Schedule& schedule) {
+  const Use& use = common.use;
+  const uint32_t segment = schedule.segment_of[use.pass], queue = schedule.queue_of_pass(use.pass);
   if (epochs.empty() || epochs.back().age != age || !joins(epochs.back(), use)) {
     Epoch epoch;
     epoch.age = age, epoch.first_segment = segment, epoch.share = use.share, epoch.writes = use.writes(), epoch.effect.layout = use.effect.layout,
@@ -29,12 +48,24 @@ void add(std::vector<Epoch>& epochs, uint32_t age, const Use& use, uint32_t segm
   }
   Epoch& epoch = epochs.back();
   RG_CHECK(segment >= epoch.last_segment, "uses arrive in schedule order");
-  const Effect effect = gpu_effect(use.effect);
-  merge(epoch.effect, effect);
+  merge(epoch.effect, gpu_effect(use.effect));
   epoch.last_segment = segment;
   if (epoch.queue != queue) epoch.queue = kSeveralQueues;
   epoch.needs = epoch.needs || use.needs;
-  epoch.events.push_back({segment, effect.stages(), use.pass, use.effect.read_stages, use.effect.reads, false, queue, effect});
+  for (const Use* each : common.uses) {
+    Effect effect = gpu_effect(each->effect);
+    if (each != common.uses.front() && use.writes() && !use.needs) effect.reads = 0, effect.read_stages = 0;
+    epoch.events.push_back({segment, effect.stages(), each->pass, effect.read_stages, effect.reads, false, queue, effect});
+  }
+}
+
+void add_rows(std::vector<Epoch>& epochs, uint32_t age, const std::vector<const Use*>& uses, const Schedule& schedule) {
+  for (auto first = uses.begin(); first != uses.end();) {
+    auto last = first + 1;
+    while (last != uses.end() && schedule.leader_of[(*last)->pass] == schedule.leader_of[(*first)->pass]) ++last;
+    add(epochs, age, common_use(first, last), schedule);
+    first = last;
+  }
 }
 
 bool crosses_frames(dsl::Lifetime lifetime) { return lifetime == dsl::Lifetime::history || lifetime == dsl::Lifetime::persistent; }
@@ -71,9 +102,7 @@ std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
     if (frame.cells[cell].age != 0) continue;
     const Grid& grid = frame.grids[frame.cells[cell].resource];
     Line line{cell, {}};
-    for (uint32_t age = 0; age < grid.ages; ++age)
-      for (const Use* use : by_cell[cell + age * grid.cells_per_age()])
-        add(line.epochs, age, *use, schedule.segment_of[use->pass], schedule.queue_of_pass(use->pass));
+    for (uint32_t age = 0; age < grid.ages; ++age) add_rows(line.epochs, age, by_cell[cell + age * grid.cells_per_age()], schedule);
     if (line.epochs.empty()) continue;
     for (Epoch& epoch : line.epochs) epoch.covered = epoch.effect;
     if (crosses_frames(frame.resource_of(cell).lifetime)) cover_continued_reads(line);

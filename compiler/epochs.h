@@ -4,6 +4,8 @@
 //   cell       write    sampled   sampled   storage    storage, sharing with D
 //   epoch      [ A ]    [ B         C ]     [ D          E ]
 //
+// Passes of one rendering use their attachments as one pass would.
+//
 // A line is a cell across all ages of its resource, in the order time passes for one copy: this frame's epochs, then those of the copy when it is one
 // frame old, and so on; after the last age it is this frame's again. Other lifetimes have one age. Consecutive reads in one layout form one epoch
 // even across a frame boundary, so the barrier before the first of them covers them all.

@@ -215,6 +215,21 @@ std::vector<uint32_t> cells_of(const Frame& frame, const dsl::Access& access) {
   return cells;
 }
 
+void keep_contents(Frame& frame, const PlanOptions& options) {
+  if (options.discard && options.no_discard.empty()) return;
+  for (uint32_t pass = 0; pass < frame.passes.size(); ++pass)
+    for (const dsl::Access& access : frame.pass(pass).accesses) {
+      if (!is_attachment(access.role) || access.clear || may_discard(options, (*frame.graph).resources[access.resource])) continue;
+      const std::vector<uint32_t> cells = cells_of(frame, access);
+      for (uint32_t u = frame.first_use[pass]; u < frame.first_use[pass + 1]; ++u) {
+        Use& use = frame.uses[u];
+        if (!std::binary_search(cells.begin(), cells.end(), use.cell)) continue;
+        use.needs = true;
+        if (access.role == dsl::Role::color) use.effect.reads |= access::color_attachment_read, use.effect.read_stages |= use.effect.write_stages;
+      }
+    }
+}
+
 bool may_skip(const Frame& frame, uint32_t pass_index, const Cell& cell) {
   const dsl::Pass& pass = frame.pass(pass_index);
   if (!pass.conditions.empty()) return true;

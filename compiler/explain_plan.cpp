@@ -16,6 +16,7 @@ struct Slack {
 std::vector<Slack> find_slack(const Graph& graph, const Schedule& schedule) {
   std::vector<Slack> all(schedule.segment_of.size());
   for (const Dependency& d : graph.dependencies) {
+    if (schedule.one_rendering(d.before, d.after)) continue;
     const uint32_t gap = d.kind != DependencyKind::order, earlier = schedule.segment_of[d.before], later = schedule.segment_of[d.after];
     Slack &to = all[d.after], &from = all[d.before];
     if (!to.before || earlier + gap > to.first) to.first = earlier + gap, to.before = &d;
@@ -125,7 +126,7 @@ void explain_waits(const PlanParts& parts, const PlanData& plan, Decisions& out)
       const BatchWait& wait = parts.sync.batches[static_cast<size_t>(&batch - plan.batches.data())].waits[w - batch.first_wait];
       const char* from = wait.batch == kNone ? "what it did in the frame before" : "a batch of this frame";
       out.push_back({fmt::format("wait {}", w), "wait",
-                     fmt::format("queue {} waits for queue {}, {}: `{}` is used on both; gone if its users ran on one queue (`--keep-home`)",
+                     fmt::format("queue {} waits for queue {}, {}: `{}` is used on both; gone if its users ran on one queue (`--no-async=PASS`)",
                                  batch.queue, wait.queue, from, parts.frame.resource_of(wait.cell).name)});
     }
 }

@@ -65,6 +65,13 @@ struct Frame {
 // Keeps what the configuration's features select. O(accesses * cells they touch).
 Frame expand(const dsl::Program& program, dsl::GraphId graph, const Configuration& configuration, const PlanOptions& options);
 
+// True if contents of the resource that nobody needs may be lost.
+inline bool may_discard(const PlanOptions& options, const dsl::Resource& resource) {
+  return options.discard && (options.no_discard.empty() || !options.no_discard.contains(resource.name));
+}
+// Attachments that may not be discarded are loaded, whether their contents are needed or not. After culling, which is not to see that.
+void keep_contents(Frame& frame, const PlanOptions& options);
+
 // Cells that `access` touches, ascending.
 std::vector<uint32_t> cells_of(const Frame& frame, const dsl::Access& access);
 

@@ -20,35 +20,46 @@ struct Piece {                    // a segment, before segments are numbered in 
 // Cuts the timeline into pieces. A piece ends where a pass depends on another of the same piece, and where one has to wait for another queue anew.
 class Cutter {
  public:
-  Cutter(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs, bool merge)
-      : one_queue_(one_queue), plan_(plan), costs_(costs), merge_(merge), before_(frame.passes.size()), piece_of_(frame.passes.size(), UINT32_MAX) {
+  Cutter(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs,
+         const PlanOptions& options)
+      : frame_(frame), one_queue_(one_queue), plan_(plan), costs_(costs), options_(options), before_(frame.passes.size()), piece_of_(frame.passes.size(), UINT32_MAX) {
     for (const auto& [before, after] : plan.extra) extra_.push_back({before, after, DependencyKind::order, UINT32_MAX});
     for (const Dependency& d : graph.dependencies) before_[d.after].push_back(&d);
     for (const Dependency& d : extra_) before_[d.after].push_back(&d);
   }
 
   std::vector<Piece> run(size_t queues) {
-    current_.assign(queues, UINT32_MAX), counts_.assign(queues, 0), now_.assign(queues, std::vector<uint32_t>(queues));
-    for (const uint32_t node : plan_.timeline.order) add(one_queue_.order[node], plan_.queue_of[node]);
+    parted_.assign(queues, false), current_.assign(queues, UINT32_MAX), counts_.assign(queues, 0), now_.assign(queues, std::vector<uint32_t>(queues));
+    std::vector<std::vector<uint32_t>> members(one_queue_.leader_of.size());
+    for (const uint32_t pass : one_queue_.order) members[one_queue_.leader_of[pass]].push_back(pass);
+    for (const uint32_t node : plan_.timeline.order)
+      if (const uint32_t pass = one_queue_.order[node]; one_queue_.leader_of[pass] == pass) add(members[pass], plan_.queue_of[node]);
     return std::move(pieces_);
   }
 
  private:
-  void add(uint32_t pass, uint32_t queue) {
-    bool cut = current_[queue] == UINT32_MAX || !merge_;
+  // One pass, or all of a rendering.
+  void add(const std::vector<uint32_t>& passes, uint32_t queue) {
+    const bool own = options_.no_merge.contains(frame_.pass(passes.front()).name);
+    bool cut = current_[queue] == UINT32_MAX || !options_.merge || own || parted_[queue];
+    parted_[queue] = own;
     std::vector<uint32_t> waits;
-    for (const Dependency* d : before_[pass]) {
-      const uint32_t from = piece_of_[d->before];
-      if (pieces_[from].queue == queue)
-        cut = cut || (from == current_[queue] && d->kind != DependencyKind::order);
-      else if (now_[queue][pieces_[from].queue] <= pieces_[from].index)
-        waits.push_back(from);
-    }
+    for (const uint32_t pass : passes)
+      for (const Dependency* d : before_[pass]) {
+        if (one_queue_.leader_of[d->before] == one_queue_.leader_of[pass]) continue;
+        const uint32_t from = piece_of_[d->before];
+        if (pieces_[from].queue == queue)
+          cut = cut || (from == current_[queue] && d->kind != DependencyKind::order);
+        else if (now_[queue][pieces_[from].queue] <= pieces_[from].index)
+          waits.push_back(from);
+      }
     if (cut || !waits.empty()) open(queue);
     for (const uint32_t from : latest_only(std::move(waits), queue)) wait_for(from, queue);
     Piece& piece = pieces_[current_[queue]];
-    piece.passes.push_back(pass), piece.cost += costs_[pass];
-    piece_of_[pass] = current_[queue];
+    for (const uint32_t pass : passes) {
+      piece.passes.push_back(pass), piece.cost += costs_[pass];
+      piece_of_[pass] = current_[queue];
+    }
   }
 
   void open(uint32_t queue) {
@@ -82,10 +93,12 @@ class Cutter {
     known_[current_[queue]] = now;
   }
 
+  const Frame& frame_;
   const Schedule& one_queue_;
   const QueuePlan& plan_;
   const std::vector<double>& costs_;
-  bool merge_;
+  const PlanOptions& options_;
+  std::vector<bool> parted_;  // by queue: its piece in hand takes nobody else
   std::vector<Dependency> extra_;
   std::vector<std::vector<const Dependency*>> before_;
   std::vector<uint32_t> piece_of_, current_, counts_;
@@ -184,10 +197,11 @@ class Joiner {
 
 Schedule make_batches(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs,
                       const PlanOptions& options) {
-  const std::vector<Piece> pieces = Cutter(frame, graph, one_queue, plan, costs, options.merge).run(options.queues.size());
+  const std::vector<Piece> pieces = Cutter(frame, graph, one_queue, plan, costs, options).run(options.queues.size());
   const Joined joined = Joiner(pieces, options.queues.size()).run(0.01 * std::max(0.0, plan.gain.serial - plan.timeline.end));
   Schedule schedule;
   schedule.queues = options.queues;
+  schedule.leader_of = one_queue.leader_of;
   schedule.segment_of.assign(frame.passes.size(), UINT32_MAX);
   std::vector<std::vector<uint32_t>> pieces_of(joined.serial.size());
   for (uint32_t p = 0; p < pieces.size(); ++p) pieces_of[joined.batch_of[p]].push_back(p);

@@ -12,6 +12,7 @@
 
 #include "compiler/build_graph.h"
 #include "compiler/frame.h"
+#include "compiler/renderings.h"
 #include "compiler/segment_search.h"
 
 namespace rg::compiler {
@@ -25,6 +26,7 @@ namespace rg::compiler {
 struct Schedule {
   std::vector<uint32_t> order;       // live passes as they are recorded, in the serial order
   std::vector<uint32_t> segment_of;  // by pass of the frame; UINT32_MAX: culled
+  std::vector<uint32_t> leader_of;   // by pass of the frame: the first of its rendering, see Renderings; those of one follow each other in `order`
   uint32_t segments = 0;
   std::vector<dsl::QueueKind> queues = {dsl::QueueKind::graphics};
   std::vector<uint32_t> queue_of, batch_of;  // by segment; every batch has a segment, unless there is none at all
@@ -35,6 +37,7 @@ struct Schedule {
   uint64_t evaluations = 0;
   const char* method = "";
 
+  bool one_rendering(uint32_t a, uint32_t b) const { return leader_of[a] == leader_of[b]; }
   uint32_t slots() const { return segments + batches; }
   uint32_t slot_before(uint32_t segment) const { return segment + batch_of[segment]; }
   uint32_t closing_slot(uint32_t batch) const {
@@ -52,6 +55,7 @@ struct Schedule {
 // Legal for every dependency. Program order, cut greedily, is always among the candidates; the best has the least groups * bytes.
 // `reorder` false keeps program order, `merge` false gives each pass a segment of its own.
 // Search effort is counted in evaluations and shrinks with size: O(n log n) per candidate. Deterministic.
-Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options);
+Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const Renderings& renderings,
+                       const PlanOptions& options);
 
 }  // namespace rg::compiler

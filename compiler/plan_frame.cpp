@@ -15,6 +15,7 @@
 #include "compiler/make_schedule.h"
 #include "compiler/pass_cost.h"
 #include "compiler/plan_memory.h"
+#include "compiler/renderings.h"
 #include "compiler/synchronise.h"
 
 namespace rg::compiler {
@@ -44,6 +45,15 @@ struct Queues {
 void use_general_layout(Frame& frame, const std::vector<uint32_t>& resources) {
   for (Use& use : frame.uses)
     if (std::find(resources.begin(), resources.end(), frame.cells[use.cell].resource) != resources.end()) use.effect.layout = Layout::general;
+}
+
+// Passes that read depth use it in the layout of those of their rendering that write it.
+Renderings merge_passes(Frame& frame, Graph& graph, const std::vector<bool>& live, const PlanOptions& options) {
+  Renderings renderings = find_renderings(frame, graph, live, options);
+  if (renderings.layouts.empty()) return renderings;
+  for (const auto& [use, layout] : renderings.layouts) frame.uses[use].effect.layout = layout;
+  graph = build_graph(frame, live);
+  return find_renderings(frame, graph, live, options);
 }
 
 Overlap overlap_of(const QueuePlan& plan, const Schedule& one_queue, const std::vector<double>& costs, size_t queues) {
@@ -80,7 +90,7 @@ OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& o
   for (uint32_t node = 0; node < nodes; ++node) node_of[schedule.order[node]] = node;
   std::vector<std::pair<uint32_t, uint32_t>> needed;
   for (const Dependency& d : graph.dependencies)
-    if (d.kind != DependencyKind::order) needed.emplace_back(node_of[d.before], node_of[d.after]);
+    if (d.kind != DependencyKind::order && !schedule.one_rendering(d.before, d.after)) needed.emplace_back(node_of[d.before], node_of[d.after]);
   std::sort(needed.begin(), needed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   facts.needed_pairs = weigh_pairs(nodes, needed, std::vector<uint64_t>(nodes, 1));
   // On the GPU: segments of a queue one after the other, batches after those they wait for.
@@ -131,8 +141,19 @@ Queues use_queues(const Frame& frame, const Graph& graph, const Schedule& one_qu
 
 }  // namespace
 
+PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
+  PlanOptions result = options;
+  result.aliasing = result.aliasing && !options.no_aliasing.contains(graph);
+  result.async = result.async && !options.no_async.contains(graph);
+  result.reorder = result.reorder && !options.no_reorder.contains(graph);
+  result.merge = result.merge && !options.no_merge.contains(graph);
+  result.discard = result.discard && !options.no_discard.contains(graph);
+  return result;
+}
+
 // The planner, top to bottom. Each line consumes only what is above it.
-FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const Configuration& configuration, const PlanOptions& options) {
+FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const Configuration& configuration, const PlanOptions& all_options) {
+  const PlanOptions options = options_for(all_options, program.graphs[graph_id].name);
   Stopwatch watch;
 
   // What this configuration is made of, down to the subresource.
@@ -141,15 +162,22 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   // Who needs whom; what nobody needs goes, and with it its hazards.
   const std::vector<bool> all(frame.passes.size(), true);
   const Liveness liveness = watch.time("cull", [&] { return cull(frame, build_graph(frame, all)); });
-  Graph graph = watch.time("build_graph", [&] { return build_graph(frame, liveness.live); });
+  Graph graph = watch.time("build_graph", [&] {
+    keep_contents(frame, options);
+    return build_graph(frame, liveness.live);
+  });
+
+  // Passes that are one rendering from here on move as one.
+  Renderings renderings = watch.time("find_renderings", [&] { return merge_passes(frame, graph, liveness.live, options); });
 
   // Order, and where barriers stand. Beyond this point both are fixed.
-  Schedule one_queue = watch.time("make_schedule", [&] { return make_schedule(frame, graph, liveness.live, options); });
+  Schedule one_queue = watch.time("make_schedule", [&] { return make_schedule(frame, graph, liveness.live, renderings, options); });
   Queues queues = watch.time("assign_queues", [&] { return use_queues(frame, graph, one_queue, options); });
   if (!queues.contested.empty()) {
     use_general_layout(frame, queues.contested);
     graph = build_graph(frame, liveness.live);
-    one_queue = make_schedule(frame, graph, liveness.live, options);
+    renderings = find_renderings(frame, graph, liveness.live, options);
+    one_queue = make_schedule(frame, graph, liveness.live, renderings, options);
     queues = use_queues(frame, graph, one_queue, options);
   }
   const Schedule& schedule = queues.schedule;
@@ -174,6 +202,7 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   result.decisions = watch.time("explain", [&] { return explain_plan(parts, graph, result.plan); });
   result.overlap = queues.overlap;
   result.order = order_facts(frame, graph, one_queue, schedule, sync);
+  result.decisions.insert(result.decisions.end(), renderings.decisions.begin(), renderings.decisions.end());
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());
   result.heap_bytes = memory.heap_bytes, result.unaliased_bytes = memory.unaliased_bytes, result.lower_bound_bytes = memory.lower_bound_bytes;
   result.phase_ms = std::move(watch.phases);

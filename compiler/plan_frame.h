@@ -19,16 +19,20 @@ using Configuration = std::vector<uint32_t>;  // one value a FeatureId
 enum class Prefer : uint8_t { balance, time, memory, barriers, order };
 enum class Effort : uint8_t { fast, normal, max };
 
-// What may be switched off, each a driver work-around with its own flag on the command line.
+// What may be switched off, for everything or for what is named: each a driver work-around with its own flag on the command line.
 struct PlanOptions {
-  bool aliasing = true, reorder = true, merge = true, discard = true, async = true;
+  bool aliasing = true;  // transients share memory
+  bool async = true;     // several queues
+  bool reorder = true;   // passes run in another order than the program's
+  bool merge = true;     // passes without a barrier group between them, renderings of several passes
+  bool discard = true;   // contents that nobody needs are not kept
+  std::set<std::string> no_aliasing = {}, no_discard = {};             // graphs and resources
+  std::set<std::string> no_async = {}, no_reorder = {}, no_merge = {};  // graphs and passes
   uint64_t image_alignment = 65536, buffer_alignment = 256;  // of the device profile used for estimates
   Prefer prefer = Prefer::balance;
   Effort effort = Effort::normal;
   std::vector<dsl::QueueKind> queues = {dsl::QueueKind::graphics};  // what the plan may use; the first is where passes run that name none
   std::map<std::string, double> measured_us = {};                   // by pass name: measured times in place of estimates
-  std::set<std::string> keep_apart = {};                            // resources that share no memory, whatever `aliasing` says
-  std::set<std::string> keep_home = {};                             // passes that stay on the first queue, whatever `async` says
 };
 
 // Why something is as it is: the record that reports and `rgc explain` read.
@@ -71,6 +75,9 @@ struct FramePlan {
   OrderFacts order;
   std::vector<std::pair<std::string, double>> phase_ms;
 };
+
+// Names in the switches that are graphs switch off the whole graph.
+PlanOptions options_for(const PlanOptions& options, const std::string& graph);
 
 FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph, const Configuration& configuration, const PlanOptions& options);
 

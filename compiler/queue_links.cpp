@@ -218,7 +218,7 @@ CellBarrier connect(const Frame& frame, const PlanOptions& options, uint32_t cel
   b.cell = cell, b.range = frame.cells[cell].range, b.begin = frame.cells[cell].begin, b.end = frame.cells[cell].end;
   // Where readers of the same layout come before, execution alone is enough: a discard would make a transition of it.
   const bool worthwhile = from.writes || from.effect.layout != to.effect.layout;
-  const bool discards = image && (!from.defined || (options.discard && !to.needs && worthwhile));
+  const bool discards = image && (!from.defined || (!to.needs && worthwhile && may_discard(options, frame.resource_of(cell))));
   if (image) b.old_layout = discards ? Layout::undefined : from.effect.layout, b.new_layout = to.effect.layout;
   const bool new_layout = image && (b.old_layout != b.new_layout);
   const bool rewrites = to.writes || new_layout;  // waits for readers too

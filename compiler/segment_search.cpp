@@ -147,9 +147,9 @@ std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Prefer prefe
   return counts;
 }
 
-// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; a hundred times as many for the last effort.
+// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; up to three hundred times as many for the last effort.
 uint64_t total_evaluations(uint64_t nodes, Effort effort) {
-  const uint64_t moves = nodes <= 1000 ? 300 * nodes : 300'000 + 60 * (nodes - 1000);
+  const uint64_t moves = nodes <= 400 ? 300 * nodes : nodes <= 1000 ? 120'000 + 30 * (nodes - 400) : 138'000 + 60 * (nodes - 1000);
   return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 30) : moves;
 }
 

@@ -4,8 +4,10 @@
 //   soft edges   before not later than after
 //   items        weigh `bytes` in every segment from their first to their last user
 //
-// Source of the method: list scheduling with slack (as soon, as late as possible) and simulated annealing on segment numbers, the energy being a
-// high power of each segment's live bytes, a smooth stand-in for their maximum. Moves that break an edge push the neighbours along.
+// Source of the method: list scheduling with slack (as soon, as late as possible) and simulated annealing on segment numbers (Kirkpatrick et al. 1983),
+// first with a high power of each segment's live bytes as the energy, a smooth stand-in for their maximum, then with what lies above a target that falls
+// whenever it is met. Moves that break an edge push the neighbours along; in the second part boundaries move from where nothing needs them to where
+// the target is missed.
 #pragma once
 
 #include <cstdint>

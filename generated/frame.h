@@ -422,97 +422,97 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 57, .shaders = 35, .pipelines = 52, .barrier_groups = 31, .image_barriers = 77, .buffer_barriers = 27, .batches = 1,
+    {.passes = 57, .shaders = 35, .pipelines = 52, .barrier_groups = 29, .image_barriers = 69, .buffer_barriers = 26, .batches = 1,
      .heap_bytes = 19021056, .unaliased_bytes = 24707072, .lower_bound_bytes = 19021056};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1},  // mesh_cull_clear
     {.position = 1, .group = 2, .barriers = 2},  // mesh_cull
-    {.position = 2, .group = 3, .barriers = 5},  // sun_shadow_world
-    {.position = 3, .group = 3},  // lamp_cull
-    {.position = 4, .group = 3},  // depth_world
-    {.position = 5, .group = 4, .barriers = 4},  // sun_shadow_props
-    {.position = 6, .group = 4},  // lamp_shadow_world_0
-    {.position = 7, .group = 4},  // lamp_shadow_world_1
-    {.position = 8, .group = 4},  // lamp_shadow_world_2
-    {.position = 9, .group = 4},  // depth_props
-    {.position = 10, .group = 5, .barriers = 4},  // lamp_shadow_world_3
-    {.position = 11, .group = 5},  // lamp_shadow_world_4
-    {.position = 12, .group = 5},  // depth_range_first
-    {.position = 13, .group = 6, .barriers = 3},  // lamp_shadow_world_5
-    {.position = 14, .group = 6},  // lamp_shadow_world_6
-    {.position = 15, .group = 6},  // depth_range_down_1
-    {.position = 16, .group = 7, .barriers = 3},  // lamp_shadow_world_7
-    {.position = 17, .group = 7},  // froxel_fog_clusters_cull
-    {.position = 18, .group = 7},  // depth_range_down_2
-    {.position = 19, .group = 8, .barriers = 3},  // froxel_fog_chain_inject
-    {.position = 20, .group = 8},  // depth_range_down_3
-    {.position = 21, .group = 9, .barriers = 9},  // froxel_fog_chain_light
-    {.position = 22, .group = 9},  // depth_range_down_4
-    {.position = 23, .group = 10, .barriers = 5},  // froxel_fog_chain_integrate
-    {.position = 24, .group = 10},  // depth_range_down_5
-    {.position = 25, .group = 11, .barriers = 1},  // depth_range_down_6
-    {.position = 26, .group = 12, .barriers = 7},  // depth_range_down_7
-    {.position = 27, .group = 12},  // zbin_build_clear
-    {.position = 28, .group = 12},  // light_occlusion_clear
-    {.position = 29, .group = 12},  // gbuffer_world
-    {.position = 30, .group = 13, .barriers = 9},  // zbin_build
-    {.position = 31, .group = 13},  // light_occlusion
-    {.position = 32, .group = 13},  // gbuffer_props
-    {.position = 33, .group = 14, .barriers = 5},  // zbin_pack
-    {.position = 34, .group = 14},  // light_cull
-    {.position = 35, .group = 14},  // tile_cull
-    {.position = 36, .group = 14},  // ambient_occlusion
-    {.position = 37, .group = 15, .barriers = 10},  // deferred_light
-    {.position = 38, .group = 16, .barriers = 2},  // transparent
-    {.position = 39, .group = 17, .barriers = 1},  // hologram
-    {.position = 40, .group = 18, .barriers = 3},  // resolve_temporal
-    {.position = 41, .group = 19, .barriers = 3},  // bloom_first
-    {.position = 42, .group = 20, .barriers = 1},  // bloom_down_1
-    {.position = 43, .group = 21, .barriers = 1},  // bloom_down_2
-    {.position = 44, .group = 22, .barriers = 3},  // debug_view
-    {.position = 45, .group = 22},  // luminance_clear
-    {.position = 46, .group = 22},  // bloom_down_3
-    {.position = 47, .group = 23, .barriers = 2},  // luminance
-    {.position = 48, .group = 23},  // bloom_down_4
-    {.position = 49, .group = 24, .barriers = 2},  // expose
-    {.position = 50, .group = 24},  // bloom_down_5
-    {.position = 51, .group = 25, .barriers = 2},  // bloom_up_1
-    {.position = 52, .group = 26, .barriers = 2},  // bloom_up_2
-    {.position = 53, .group = 27, .barriers = 2},  // bloom_up_3
-    {.position = 54, .group = 28, .barriers = 2},  // bloom_up_4
-    {.position = 55, .group = 29, .barriers = 2},  // bloom_up_5
-    {.position = 56, .group = 30, .barriers = 4},  // tonemap
+    {.position = 2, .group = 2},  // lamp_cull
+    {.position = 3, .group = 3, .barriers = 6},  // sun_shadow_world
+    {.position = 4, .group = 3},  // sun_shadow_props
+    {.position = 5, .group = 3},  // lamp_shadow_world_0
+    {.position = 6, .group = 3},  // lamp_shadow_world_1
+    {.position = 7, .group = 3},  // depth_world
+    {.position = 8, .group = 3},  // depth_props
+    {.position = 9, .group = 4, .barriers = 4},  // lamp_shadow_world_2
+    {.position = 10, .group = 4},  // lamp_shadow_world_3
+    {.position = 11, .group = 4},  // depth_range_first
+    {.position = 12, .group = 5, .barriers = 3},  // lamp_shadow_world_4
+    {.position = 13, .group = 5},  // lamp_shadow_world_5
+    {.position = 14, .group = 5},  // depth_range_down_1
+    {.position = 15, .group = 6, .barriers = 3},  // lamp_shadow_world_6
+    {.position = 16, .group = 6},  // lamp_shadow_world_7
+    {.position = 17, .group = 6},  // depth_range_down_2
+    {.position = 18, .group = 7, .barriers = 1},  // froxel_fog_clusters_cull
+    {.position = 19, .group = 7},  // depth_range_down_3
+    {.position = 20, .group = 8, .barriers = 3},  // froxel_fog_chain_inject
+    {.position = 21, .group = 8},  // depth_range_down_4
+    {.position = 22, .group = 9, .barriers = 9},  // froxel_fog_chain_light
+    {.position = 23, .group = 9},  // depth_range_down_5
+    {.position = 24, .group = 10, .barriers = 5},  // froxel_fog_chain_integrate
+    {.position = 25, .group = 10},  // depth_range_down_6
+    {.position = 26, .group = 11, .barriers = 2},  // depth_range_down_7
+    {.position = 27, .group = 11},  // zbin_build_clear
+    {.position = 28, .group = 11},  // light_occlusion_clear
+    {.position = 29, .group = 12, .barriers = 9},  // zbin_build
+    {.position = 30, .group = 12},  // light_occlusion
+    {.position = 31, .group = 12},  // gbuffer_world
+    {.position = 32, .group = 12},  // gbuffer_props
+    {.position = 33, .group = 13, .barriers = 5},  // zbin_pack
+    {.position = 34, .group = 13},  // light_cull
+    {.position = 35, .group = 13},  // tile_cull
+    {.position = 36, .group = 13},  // ambient_occlusion
+    {.position = 37, .group = 14, .barriers = 10},  // deferred_light
+    {.position = 38, .group = 15, .barriers = 2},  // transparent
+    {.position = 39, .group = 15},  // hologram
+    {.position = 40, .group = 16, .barriers = 3},  // resolve_temporal
+    {.position = 41, .group = 17, .barriers = 3},  // bloom_first
+    {.position = 42, .group = 18, .barriers = 1},  // bloom_down_1
+    {.position = 43, .group = 19, .barriers = 1},  // bloom_down_2
+    {.position = 44, .group = 20, .barriers = 3},  // debug_view
+    {.position = 45, .group = 20},  // luminance_clear
+    {.position = 46, .group = 20},  // bloom_down_3
+    {.position = 47, .group = 21, .barriers = 2},  // luminance
+    {.position = 48, .group = 21},  // bloom_down_4
+    {.position = 49, .group = 22, .barriers = 2},  // expose
+    {.position = 50, .group = 22},  // bloom_down_5
+    {.position = 51, .group = 23, .barriers = 2},  // bloom_up_1
+    {.position = 52, .group = 24, .barriers = 2},  // bloom_up_2
+    {.position = 53, .group = 25, .barriers = 2},  // bloom_up_3
+    {.position = 54, .group = 26, .barriers = 2},  // bloom_up_4
+    {.position = 55, .group = 27, .barriers = 2},  // bloom_up_5
+    {.position = 56, .group = 28, .barriers = 4},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 17, .last = 38},  // scene_lights
-    {.bytes = 256, .first = 17, .last = 19},  // scene_fog_volumes
+    {.bytes = 256, .first = 18, .last = 38},  // scene_lights
+    {.bytes = 256, .first = 18, .last = 20},  // scene_fog_volumes
     {.bytes = 256, .first = 1, .last = 38},  // scene_instances
-    {.bytes = 256, .first = 29, .last = 38},  // scene_materials
-    {.bytes = 256, .first = 2, .last = 38},  // scene_vertices
-    {.bytes = 256, .first = 2, .last = 38},  // scene_indices
-    {.bytes = 256, .first = 5, .last = 32},  // scene_props
-    {.bytes = 256, .first = 5, .last = 32},  // scene_prop_indices
-    {.bytes = 11206656, .first = 19, .last = 38},  // scene_albedo_maps
-    {.bytes = 11206656, .first = 29, .last = 29},  // scene_surface_maps
+    {.bytes = 256, .first = 31, .last = 38},  // scene_materials
+    {.bytes = 256, .first = 3, .last = 38},  // scene_vertices
+    {.bytes = 256, .first = 3, .last = 38},  // scene_indices
+    {.bytes = 256, .first = 4, .last = 32},  // scene_props
+    {.bytes = 256, .first = 4, .last = 32},  // scene_prop_indices
+    {.bytes = 11206656, .first = 20, .last = 38},  // scene_albedo_maps
+    {.bytes = 11206656, .first = 31, .last = 31},  // scene_surface_maps
     {.bytes = 983040, .first = 56, .last = 56},  // backbuffer
-    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 29},  // world_draws
-    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 2},  // sun_draws
+    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 31},  // world_draws
+    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 3},  // sun_draws
     {.bytes = 256, .last = 1},  // cull_counts
-    {.bytes = 9437184, .transient = true, .first = 2, .last = 38},  // sun_shadow
-    {.bytes = 131072, .offset = 12992512, .transient = true, .first = 3, .last = 16},  // lamp_draws
-    {.bytes = 2097152, .first = 6, .last = 38},  // lamp_shadow
-    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 23, .last = 44},  // scattered
-    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 23, .last = 44},  // transmittance
-    {.bytes = 147456, .offset = 12845056, .transient = true, .first = 17, .last = 19},  // froxel_fog_cluster_volumes
-    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 17, .last = 21},  // froxel_fog_cluster_lights
-    {.bytes = 327680, .offset = 13434880, .transient = true, .first = 19, .last = 21},  // froxel_fog_density
-    {.bytes = 589824, .offset = 12845056, .transient = true, .first = 21, .last = 23},  // froxel_fog_inscatter
-    {.bytes = 327680, .offset = 13762560, .transient = true, .first = 21, .last = 23},  // froxel_fog_extinction
-    {.bytes = 2359296, .first = 21, .last = 21},  // froxel_fog_memory
-    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 4, .last = 44},  // depth
-    {.bytes = 65536, .offset = 10420224, .transient = true, .first = 12, .last = 34},  // depth_range
+    {.bytes = 9437184, .transient = true, .first = 3, .last = 38},  // sun_shadow
+    {.bytes = 131072, .offset = 10485760, .transient = true, .first = 2, .last = 16},  // lamp_draws
+    {.bytes = 2097152, .first = 5, .last = 38},  // lamp_shadow
+    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 24, .last = 44},  // scattered
+    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 24, .last = 44},  // transmittance
+    {.bytes = 147456, .offset = 12845056, .transient = true, .first = 18, .last = 20},  // froxel_fog_cluster_volumes
+    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 18, .last = 22},  // froxel_fog_cluster_lights
+    {.bytes = 327680, .offset = 13434880, .transient = true, .first = 20, .last = 22},  // froxel_fog_density
+    {.bytes = 589824, .offset = 12845056, .transient = true, .first = 22, .last = 24},  // froxel_fog_inscatter
+    {.bytes = 327680, .offset = 13762560, .transient = true, .first = 22, .last = 24},  // froxel_fog_extinction
+    {.bytes = 2359296, .first = 22, .last = 22},  // froxel_fog_memory
+    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 7, .last = 44},  // depth
+    {.bytes = 65536, .offset = 10420224, .transient = true, .first = 11, .last = 34},  // depth_range
     {.bytes = 32768, .offset = 10485760, .transient = true, .first = 27, .last = 33},  // zbin_min
     {.bytes = 32768, .offset = 10518528, .transient = true, .first = 27, .last = 33},  // zbin_max
     {.bytes = 32768, .offset = 18988288, .transient = true, .first = 33, .last = 44},  // zbins
@@ -521,11 +521,11 @@ inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 230400, .offset = 18514944, .transient = true, .first = 34, .last = 44},  // forward_lights
     {.bytes = 242944, .offset = 18745344, .transient = true, .first = 35, .last = 44},  // tile_records
     {.bytes = 3840, .first = 35, .last = 44},  // tile_features
-    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 44},  // albedo
-    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 44},  // normal
-    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 44},  // material
-    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 29, .last = 44},  // emissive
-    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 29, .last = 44},  // velocity
+    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 31, .last = 44},  // albedo
+    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 31, .last = 44},  // normal
+    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 31, .last = 44},  // material
+    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 31, .last = 44},  // emissive
+    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 31, .last = 44},  // velocity
     {.bytes = 131072, .offset = 18153472, .transient = true, .first = 36, .last = 44},  // occlusion
     {.bytes = 1900544, .offset = 10420224, .transient = true, .first = 37, .last = 47},  // hdr
     {.bytes = 983040, .transient = true, .first = 44, .last = 56},  // debug_image
@@ -538,36 +538,36 @@ inline constexpr rg::ResourceFigures kResourceFigures[] = {
 namespace pass {
 inline constexpr rg::Index mesh_cull_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index sun_shadow_world = 2;
-inline constexpr rg::Index lamp_cull = 3;
-inline constexpr rg::Index depth_world = 4;
-inline constexpr rg::Index sun_shadow_props = 5;
-inline constexpr rg::Index lamp_shadow_world_0 = 6;
-inline constexpr rg::Index lamp_shadow_world_1 = 7;
-inline constexpr rg::Index lamp_shadow_world_2 = 8;
-inline constexpr rg::Index depth_props = 9;
+inline constexpr rg::Index lamp_cull = 2;
+inline constexpr rg::Index sun_shadow_world = 3;
+inline constexpr rg::Index sun_shadow_props = 4;
+inline constexpr rg::Index lamp_shadow_world_0 = 5;
+inline constexpr rg::Index lamp_shadow_world_1 = 6;
+inline constexpr rg::Index depth_world = 7;
+inline constexpr rg::Index depth_props = 8;
+inline constexpr rg::Index lamp_shadow_world_2 = 9;
 inline constexpr rg::Index lamp_shadow_world_3 = 10;
-inline constexpr rg::Index lamp_shadow_world_4 = 11;
-inline constexpr rg::Index depth_range_first = 12;
+inline constexpr rg::Index depth_range_first = 11;
+inline constexpr rg::Index lamp_shadow_world_4 = 12;
 inline constexpr rg::Index lamp_shadow_world_5 = 13;
-inline constexpr rg::Index lamp_shadow_world_6 = 14;
-inline constexpr rg::Index depth_range_down_1 = 15;
+inline constexpr rg::Index depth_range_down_1 = 14;
+inline constexpr rg::Index lamp_shadow_world_6 = 15;
 inline constexpr rg::Index lamp_shadow_world_7 = 16;
-inline constexpr rg::Index froxel_fog_clusters_cull = 17;
-inline constexpr rg::Index depth_range_down_2 = 18;
-inline constexpr rg::Index froxel_fog_chain_inject = 19;
-inline constexpr rg::Index depth_range_down_3 = 20;
-inline constexpr rg::Index froxel_fog_chain_light = 21;
-inline constexpr rg::Index depth_range_down_4 = 22;
-inline constexpr rg::Index froxel_fog_chain_integrate = 23;
-inline constexpr rg::Index depth_range_down_5 = 24;
+inline constexpr rg::Index depth_range_down_2 = 17;
+inline constexpr rg::Index froxel_fog_clusters_cull = 18;
+inline constexpr rg::Index depth_range_down_3 = 19;
+inline constexpr rg::Index froxel_fog_chain_inject = 20;
+inline constexpr rg::Index depth_range_down_4 = 21;
+inline constexpr rg::Index froxel_fog_chain_light = 22;
+inline constexpr rg::Index depth_range_down_5 = 23;
+inline constexpr rg::Index froxel_fog_chain_integrate = 24;
 inline constexpr rg::Index depth_range_down_6 = 25;
 inline constexpr rg::Index depth_range_down_7 = 26;
 inline constexpr rg::Index zbin_build_clear = 27;
 inline constexpr rg::Index light_occlusion_clear = 28;
-inline constexpr rg::Index gbuffer_world = 29;
-inline constexpr rg::Index zbin_build = 30;
-inline constexpr rg::Index light_occlusion = 31;
+inline constexpr rg::Index zbin_build = 29;
+inline constexpr rg::Index light_occlusion = 30;
+inline constexpr rg::Index gbuffer_world = 31;
 inline constexpr rg::Index gbuffer_props = 32;
 inline constexpr rg::Index zbin_pack = 33;
 inline constexpr rg::Index light_cull = 34;

@@ -265,9 +265,15 @@ Status check_own_commands(const GraphInstance::State& state, std::span<const Own
   if (state.context.submit_per_pass) return wrong("submit_per_pass submits; own commands do not");
   if (parts.empty() || parts.size() > kMaxOwnCommands || done.timeline == VK_NULL_HANDLE)
     return wrong("own commands need 1 to " + std::to_string(kMaxOwnCommands) + " command buffers and a timeline semaphore");
-  for (const OwnCommands& part : parts)
-    if (part.commands == VK_NULL_HANDLE || (part.last_pass != kNone && part.last_pass >= state.context.plan.passes.size()))
+  for (const OwnCommands& part : parts) {
+    const bool up_to_pass = part.last_pass != kNone;
+    if (part.commands == VK_NULL_HANDLE || (up_to_pass && part.last_pass >= state.context.plan.passes.size()))
       return wrong("own commands without a command buffer, or up to a pass that does not exist");
+    if (up_to_pass && &part != &parts.back() && !state.objects.passes[part.last_pass].part.last)
+      return wrong("own commands up to `" + std::string(state.context.plan.passes[part.last_pass].name) +
+                   "`, whose rendering the next pass continues; end the part after the last of them, or compile with `--no-merge=" +
+                   std::string(state.context.plan.passes[part.last_pass].name) + "`");
+  }
   return Done{};
 }
 

@@ -39,13 +39,20 @@ struct Context {
 
 // ---- independent of extents ---------------------------------------------------------------------------------------
 
+// The part of a rendering that a pass is: the first begins it, the last ends it.
+struct RenderingPart {
+  bool first = true, last = true;
+};
+
 struct PassObjects {
   std::string name, module;    // zero-terminated, for labels
   uint32_t module_number = 0;  // equal for equal modules; 0: none
   std::vector<VkFormat> color_formats;
   UniqueSetLayout set_layout;  // of set 1; null: the empty one
   UniquePipelineLayout layout;
-  UniqueRenderPass render_pass;  // only where classic render passes are recorded
+  RenderingPart part;
+  UniqueRenderPass render_pass;        // only where classic render passes are recorded
+  UniqueRenderPass whole_render_pass;  // where the pass is the first of several in a rendering
   UniquePipeline pipeline;
   std::vector<UniquePipeline> more_pipelines;  // of other shader variants
   std::vector<VkPipeline> choices;             // by combination of feature values; null: excluded
@@ -151,6 +158,7 @@ struct RenderingTable {
   VkRenderingInfo info{};                              // points at `attachments`
   VkViewport viewport{};
   // Classic form, where recorded.
+  VkRenderPass render_pass = VK_NULL_HANDLE;
   std::vector<FramebufferEntry> framebuffers;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;  // of this frame
   std::vector<ViewRef> framebuffer_views;
@@ -191,7 +199,8 @@ struct TransferTable {
 struct PassTable {
   bool runs = true;  // every mip that it touches exists
   PassInfo info;
-  RenderingTable rendering;
+  RenderingTable rendering;        // of this pass alone
+  RenderingTable whole_rendering;  // of all passes of its rendering, where it is the first of several
   SetTable set;
   uint32_t x = 1, y = 1, z = 1;  // groups, or vertices and instances
   VkDeviceSize arguments_offset = 0;
@@ -206,7 +215,7 @@ struct PassRow {
   uint32_t module = 0;
   WorkKind work = WorkKind::none;
   bool runs = true;
-  bool has_rendering = false, classic = false, fixed_views = false, has_set = false, has_engine_set = false;
+  bool has_rendering = false, ends_rendering = false, shares_rendering = false, classic = false, fixed_views = false, has_set = false, has_engine_set = false;
 };
 struct GroupRow {
   const VkDependencyInfo* infos = nullptr;  // null: nothing to record, whatever the frame

@@ -88,9 +88,11 @@ void fill_rows(const Context& context, const Objects& objects, Sized& sized) {
     row.module = objects.passes[i].module_number;
     row.work = pass.work.kind;
     row.runs = table.runs;
+    const RenderingPart part = objects.passes[i].part;
     row.has_rendering = pass.rendering != kNone;
+    row.ends_rendering = part.last, row.shares_rendering = row.has_rendering && !(part.first && part.last);
     row.classic = table.info.render_pass != VK_NULL_HANDLE;
-    row.fixed_views = table.rendering.fixed;
+    row.fixed_views = table.rendering.fixed && table.whole_rendering.fixed;
     row.has_set = table.set.period != 0;
     row.has_engine_set = pass.engine_set != kNone;
   }
@@ -106,6 +108,7 @@ void resize_pass(const Context& context, Sized& sized, Index index) {
     const Rendering& rendering = context.plan.renderings[pass.rendering];
     table.info.extent = {side(context, sized, rendering.width), side(context, sized, rendering.height)};
     cover(table.rendering, table.info.extent);
+    cover(table.whole_rendering, table.info.extent);
   }
   for (TransferTable& transfer : table.transfers) resize_transfer(context, sized, transfer);
 }
@@ -119,7 +122,7 @@ Status create_pass_tables(const Context& context, const Objects& objects, Sized&
     fill_work(context, sized, pass.work, table);
     RG_TRY(check_dispatch(context, pass, table));
     fill_info(context, sized, pass, objects.passes[i], table);
-    if (pass.rendering != kNone) RG_TRY(create_rendering(context, sized, context.plan.renderings[pass.rendering], table));
+    if (pass.rendering != kNone) RG_TRY(create_rendering(context, objects, sized, static_cast<Index>(i), table));
     table.transfers = create_transfers(context, sized, pass);
     for (Index t = 0; t < table.transfers.size(); ++t)
       if (table.transfers[t].transfer->kind == TransferKind::update) sized.updates.push_back({static_cast<Index>(i), t});

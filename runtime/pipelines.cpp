@@ -260,9 +260,14 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
     out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
                                                                  : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
-  Result<UniqueRenderPass> render_pass = create_render_pass(context, static_cast<Index>(&pass - context.plan.passes.data()));
+  const Index index = static_cast<Index>(&pass - context.plan.passes.data());
+  Result<UniqueRenderPass> render_pass = create_render_pass(context, index, out.part);
   if (!render_pass) return render_pass.error();
   out.render_pass = std::move(*render_pass);
+  if (!out.part.first || out.part.last) return Done{};
+  Result<UniqueRenderPass> whole = create_render_pass(context, index, {});
+  if (!whole) return whole.error();
+  out.whole_render_pass = std::move(*whole);
   return Done{};
 }
 
@@ -302,8 +307,11 @@ Status create_pass_objects(const Context& context, Objects& objects) {
   objects.passes.resize(context.plan.passes.size());
   Shaders shaders(context.plan.shaders.size());
   const std::vector<uint32_t> modules = module_numbers(context.plan);
-  for (size_t i = 0; i < context.plan.passes.size(); ++i)
+  const std::vector<RenderingPart> parts = find_parts(context.plan);
+  for (size_t i = 0; i < context.plan.passes.size(); ++i) {
+    objects.passes[i].part = parts[i];
     RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], shaders, objects.passes[i]));
+  }
   return Done{};
 }
 

@@ -44,6 +44,20 @@ void check_steps(const Plan& plan, Checker& c) {
   }
 }
 
+// Passes of one rendering: where the first is skipped nothing begins it for the others.
+void check_shared_renderings(const Plan& plan, Checker& c) {
+  const Pass* first = nullptr;
+  for (const Step& step : plan.steps) {
+    const Pass* pass = step.kind == StepKind::pass ? &plan.passes[step.index] : nullptr;
+    if (first == nullptr || pass == nullptr || pass->rendering == kNone || pass->rendering != first->rendering) {
+      first = pass;
+      continue;
+    }
+    c.that((first->guard & ~pass->guard) == 0, "pass", step.index, "may run where the first pass of its rendering is skipped");
+    c.that(plan.renderings[pass->rendering].view_mask == 0, "pass", step.index, "shares a rendering with several views");
+  }
+}
+
 // ---- timelines ----------------------------------------------------------------------------------------------------
 
 // Values that each queue has signalled, counted while batches are walked in listed order.
@@ -203,6 +217,7 @@ void check_ownership(const Plan& plan, Checker& c) {
 void check_schedule(const Plan& plan, Checker& c) {
   check_ranges(plan, c);
   if (c.ok()) check_steps(plan, c);
+  if (c.ok()) check_shared_renderings(plan, c);
   if (c.ok()) check_timelines(plan, c);
   if (c.ok()) check_work(plan, c);
   if (c.ok()) check_ownership(plan, c);

@@ -32,7 +32,6 @@ void open_labels(FrameRecording& r, Index index, const PassRow& row) {
   begin_label(r, pass.name);
 }
 
-// Within a rendering scope a query may not begin outside and end inside; around the whole pass it always may.
 void begin_statistics(const FrameRecording& r, Index pass) {
   if (r.statistics != VK_NULL_HANDLE) r.vk.CmdBeginQuery(r.commands, r.statistics, pass, 0);
 }
@@ -118,16 +117,29 @@ void record_work(const FrameRecording& r, const Pass& pass, const PassTable& tab
   }
 }
 
-void begin_attachments(const FrameRecording& r, const PassRow& row, PassTable& table) {
+// Each pass of a rendering by itself, with its contents in memory between them: a submit each, or something to read in between.
+bool stands_alone(const FrameRecording& r, Index pass) {
+  if (r.state.context.serial || r.state.context.submit_per_pass) return true;
+  if (r.state.dump.pass == kNone || r.state.dump.recorded) return false;
+  const Plan& plan = r.state.context.plan;
+  return plan.passes[r.state.dump.pass].rendering == plan.passes[pass].rendering;
+}
+
+void begin_attachments(const FrameRecording& r, const PassRow& row, RenderingTable& table) {
   if (row.classic || !row.fixed_views)
     begin_rendering(r.state.context, *r.state.sized, table, r.commands, r.frame);
   else
-    r.vk.CmdBeginRendering(r.commands, &table.rendering.info);
+    r.vk.CmdBeginRendering(r.commands, &table.info);
+}
+
+// A callback of the pass before may have left others.
+void cover_target(const FrameRecording& r, PassTable& table) {
   r.vk.CmdSetViewport(r.commands, 0, 1, &table.rendering.viewport);
   r.vk.CmdSetScissor(r.commands, 0, 1, &table.rendering.area);
 }
 
-void end_attachments(const FrameRecording& r, const PassRow& row) {
+void end_attachments(FrameRecording& r, const PassRow& row) {
+  r.in_rendering = false;
   row.classic ? r.vk.CmdEndRenderPass(r.commands) : r.vk.CmdEndRendering(r.commands);
 }
 
@@ -144,7 +156,7 @@ void bind_pipeline(const FrameRecording& r, Index index, const PassRow& row, con
 void record_body(const FrameRecording& r, Index index, const PassRow& row) {
   PassTable& table = r.state.sized->passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
-  if (row.has_rendering) begin_attachments(r, row, table);
+  if (row.has_rendering) cover_target(r, table);
   if (row.pipeline != VK_NULL_HANDLE) bind_pipeline(r, index, row, objects, table);
   if (row.has_engine_set) bind_engine_set(r, r.state.context.plan.passes[index], objects);
   const VkDescriptorSet set = row.has_set ? bind_pass_set(r, objects, table) : VkDescriptorSet(VK_NULL_HANDLE);
@@ -152,7 +164,24 @@ void record_body(const FrameRecording& r, Index index, const PassRow& row) {
     call_host(r, row, table, set);
   else if (row.work != WorkKind::none)
     record_work(r, r.state.context.plan.passes[index], table);
-  if (row.has_rendering) end_attachments(r, row);
+}
+
+// A pass with a rendering of its own, or with none. A query that begins outside a rendering must not end inside.
+void record_alone(FrameRecording& r, Index index, const PassRow& row, bool runs) {
+  begin_statistics(r, index);
+  if (runs && row.has_rendering) begin_attachments(r, row, r.state.sized->passes[index].rendering);
+  if (runs) record_body(r, index, row);
+  if (runs && row.has_rendering) end_attachments(r, row);
+  end_statistics(r, index);
+}
+
+// One of several in a rendering: the first begins it, the last ends it, whether that runs or not. None runs where the first does not.
+void record_shared(FrameRecording& r, Index index, const PassRow& row, bool runs) {
+  if (runs && !r.in_rendering) begin_attachments(r, row, r.state.sized->passes[index].whole_rendering), r.in_rendering = true;
+  begin_statistics(r, index);
+  if (runs) record_body(r, index, row);
+  end_statistics(r, index);
+  if (r.in_rendering && row.ends_rendering) end_attachments(r, row);
 }
 
 void record_pass(FrameRecording& r, Index index) {
@@ -160,13 +189,16 @@ void record_pass(FrameRecording& r, Index index) {
   const bool labels = r.vk.CmdBeginDebugUtilsLabelEXT != nullptr;
   if (labels) open_labels(r, index, row);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
-  begin_statistics(r, index);
-  if (row.runs && (row.guard & ~r.inputs.conditions) == 0) record_body(r, index, row);
-  end_statistics(r, index);
+  const bool runs = row.runs && (row.guard & ~r.inputs.conditions) == 0;
+  const bool alone = !row.shares_rendering || stands_alone(r, index);
+  if (!alone)
+    record_shared(r, index, row, runs);
+  else
+    record_alone(r, index, row, runs);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
   if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);
   if (labels) end_label(r);
-  if (r.state.context.serial) wait_for_all(r);
+  if (r.state.context.serial || (alone && row.shares_rendering && !row.ends_rendering)) wait_for_all(r);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ struct FrameRecording {
   uint32_t module = 0;                      // whose label is open; 0: none
   const DeviceFunctions& vk;
   uint32_t section = 0;                     // of the parameter ring
+  bool in_rendering = false;                // passes of one rendering follow
 };
 
 // For a command buffer of a queue of the plan, with the queries that this queue can write.

@@ -43,6 +43,14 @@ VkAttachmentDescription2 description(const Context& context, Ref ref, Layout lay
   return out;
 }
 
+// What is inside a rendering goes through memory where it is cut.
+Attachment attachment_in(Attachment row, RenderingPart part) {
+  if (!part.first) row.load = LoadOp::load;
+  if (!part.last && row.store != StoreOp::none) row.store = StoreOp::store;
+  if (!part.last) row.resolve = {};
+  return row;
+}
+
 void add_color(const Context& context, const Attachment& attachment, RenderPassShape& shape) {
   if (attachment.ref.resource == kNone) {
     shape.colors.push_back(reference(VK_ATTACHMENT_UNUSED, Layout::undefined, 0));
@@ -91,9 +99,10 @@ AspectState stencil_state(const Context& context, Index pass, const DepthStencil
 }
 
 // Where the format has both aspects, depth and stencil are one attachment with two layouts.
-void add_depth(const Context& context, Index pass, const Rendering& rendering, RenderPassShape& shape) {
-  const DepthStencil in{rendering.depth == kNone ? nullptr : &context.plan.attachments[rendering.depth],
-                        rendering.stencil == kNone ? nullptr : &context.plan.attachments[rendering.stencil]};
+void add_depth(const Context& context, Index pass, const Rendering& rendering, RenderingPart part, RenderPassShape& shape) {
+  const auto row = [&](Index index) { return index == kNone ? Attachment{} : attachment_in(context.plan.attachments[index], part); };
+  const Attachment depth_row = row(rendering.depth), stencil_row = row(rendering.stencil);
+  const DepthStencil in{rendering.depth == kNone ? nullptr : &depth_row, rendering.stencil == kNone ? nullptr : &stencil_row};
   const Attachment& any = in.depth != nullptr ? *in.depth : *in.stencil;
   const VkImageAspectFlags aspects = context.plan.resources[any.ref.resource].aspects;
   const bool both = aspects == (aspect_depth | aspect_stencil);
@@ -127,11 +136,11 @@ void add_resolve(const Context& context, const Attachment& attachment, RenderPas
   shape.has_resolves = true;
 }
 
-void fill_shape(const Context& context, Index pass, const Rendering& rendering, RenderPassShape& shape) {
+void fill_shape(const Context& context, Index pass, const Rendering& rendering, RenderingPart part, RenderPassShape& shape) {
   const std::span<const Attachment> colors = context.plan.attachments.subspan(rendering.first_color, rendering.color_count);
-  for (const Attachment& color : colors) add_color(context, color, shape);
-  if (depth_or_stencil(rendering) != kNone) add_depth(context, pass, rendering, shape);
-  for (const Attachment& color : colors) add_resolve(context, color, shape);
+  for (const Attachment& color : colors) add_color(context, attachment_in(color, part), shape);
+  if (depth_or_stencil(rendering) != kNone) add_depth(context, pass, rendering, part, shape);
+  for (const Attachment& color : colors) add_resolve(context, attachment_in(color, part), shape);
 }
 
 VkImageUsageFlags attachment_usage(const Context& context, Ref ref) {
@@ -160,21 +169,28 @@ VkRenderingAttachmentInfo attachment_info(const Context& context, const Attachme
   return info;
 }
 
-Status add_attachment(const Context& context, Sized& sized, const Rendering& rendering, Index index, PassTable& pass) {
-  const Attachment& attachment = context.plan.attachments[index];
+struct TableTarget {
+  const Rendering& rendering;
+  RenderingPart part;
+  PassTable& pass;
+  RenderingTable& table;
+};
+Status add_attachment(const Context& context, Sized& sized, const TableTarget& target, Index index) {
+  const Rendering& rendering = target.rendering;
+  const Attachment attachment = attachment_in(context.plan.attachments[index], target.part);
   Result<ViewRef> view = attachment_view(context, sized, rendering, attachment.ref, attachment.range);
   if (!view) return view.error();
   Result<ViewRef> resolve = attachment_view(context, sized, rendering, attachment.resolve, attachment.resolve_range);
   if (!resolve) return resolve.error();
-  pass.rendering.views.push_back(*view);
-  pass.rendering.resolve_views.push_back(*resolve);
-  pass.rendering.attachments.push_back(attachment_info(context, attachment));
-  pass.runs &= view->exists && resolve->exists;
+  target.table.views.push_back(*view);
+  target.table.resolve_views.push_back(*resolve);
+  target.table.attachments.push_back(attachment_info(context, attachment));
+  target.pass.runs &= view->exists && resolve->exists;
   return Done{};
 }
 
 // The same order as fill_shape.
-void list_framebuffer_views(const Context& context, const Rendering& plan, RenderingTable& table) {
+void list_framebuffer_views(const Rendering& plan, RenderingTable& table) {
   auto add = [&](const ViewRef& view, const VkClearValue& clear) {
     if (view.ref.resource == kNone) return;
     table.framebuffer_views.push_back(view);
@@ -188,7 +204,7 @@ void list_framebuffer_views(const Context& context, const Rendering& plan, Rende
     add(table.views[plan.color_count], clear);
   }
   for (uint32_t i = 0; i < plan.color_count; ++i)
-    if (resolves(context.plan.attachments[plan.first_color + i])) add(table.resolve_views[i], {});
+    add(table.resolve_views[i], {});
   table.framebuffer_handles.resize(table.framebuffer_views.size());
 }
 
@@ -221,11 +237,23 @@ VkClearValue clear_value(const Context& context, const Attachment& attachment) {
   return value;
 }
 
-Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass) {
+std::vector<RenderingPart> find_parts(const Plan& plan) {
+  std::vector<RenderingPart> parts(plan.passes.size());
+  for (const Batch& batch : plan.batches)
+    for (Index s = batch.first_step + 1; s < batch.first_step + batch.step_count; ++s) {
+      const Step &before = plan.steps[s - 1], &step = plan.steps[s];
+      if (before.kind != StepKind::pass || step.kind != StepKind::pass) continue;
+      const Index rendering = plan.passes[step.index].rendering;
+      if (rendering != kNone && plan.passes[before.index].rendering == rendering) parts[before.index].last = parts[step.index].first = false;
+    }
+  return parts;
+}
+
+Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass, RenderingPart part) {
   const std::string_view name = context.plan.passes[pass].name;
   const Rendering& rendering = context.plan.renderings[context.plan.passes[pass].rendering];
   RenderPassShape shape;
-  fill_shape(context, pass, rendering, shape);
+  fill_shape(context, pass, rendering, part, shape);
   VkSubpassDescription2 subpass{};
   subpass.sType = VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2;
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
@@ -275,20 +303,35 @@ void fill_info(const Sized& sized, RenderingTable& table) {
 
 }  // namespace
 
-Status create_rendering(const Context& context, Sized& sized, const Rendering& rendering, PassTable& pass) {
-  RenderingTable& table = pass.rendering;
-  table.area.extent = pass.info.extent;
+namespace {
+
+Status fill_table(const Context& context, Sized& sized, const TableTarget& target) {
+  const Rendering& rendering = target.rendering;
+  RenderingTable& table = target.table;
+  table.area.extent = target.pass.info.extent;
   table.layers = rendering.layers;
   table.view_mask = rendering.view_mask;
   table.color_count = rendering.color_count;
-  for (uint32_t i = 0; i < rendering.color_count; ++i) RG_TRY(add_attachment(context, sized, rendering, rendering.first_color + i, pass));
+  for (uint32_t i = 0; i < rendering.color_count; ++i) RG_TRY(add_attachment(context, sized, target, rendering.first_color + i));
   table.has_depth = rendering.depth != kNone;
   table.has_stencil = rendering.stencil != kNone;
-  if (table.has_depth) RG_TRY(add_attachment(context, sized, rendering, rendering.depth, pass));
-  if (table.has_stencil) RG_TRY(add_attachment(context, sized, rendering, rendering.stencil, pass));
-  list_framebuffer_views(context, rendering, table);
+  if (table.has_depth) RG_TRY(add_attachment(context, sized, target, rendering.depth));
+  if (table.has_stencil) RG_TRY(add_attachment(context, sized, target, rendering.stencil));
+  list_framebuffer_views(rendering, table);
   fill_info(sized, table);
   return Done{};
+}
+
+}  // namespace
+
+Status create_rendering(const Context& context, const Objects& objects, Sized& sized, Index index, PassTable& pass) {
+  const Rendering& rendering = context.plan.renderings[context.plan.passes[index].rendering];
+  const RenderingPart part = objects.passes[index].part;
+  pass.rendering.render_pass = objects.passes[index].render_pass.get();
+  RG_TRY(fill_table(context, sized, {rendering, part, pass, pass.rendering}));
+  if (!part.first || part.last) return Done{};
+  pass.whole_rendering.render_pass = objects.passes[index].whole_render_pass.get();
+  return fill_table(context, sized, {rendering, {}, pass, pass.whole_rendering});
 }
 
 void cover(RenderingTable& table, VkExtent2D extent) {
@@ -298,17 +341,18 @@ void cover(RenderingTable& table, VkExtent2D extent) {
 
 namespace {
 
-Result<UniqueFramebuffer> create_framebuffer(const Context& context, const PassTable& pass, const std::vector<VkImageView>& views) {
+Result<UniqueFramebuffer> create_framebuffer(const Context& context, const RenderingTable& table, const std::vector<VkImageView>& views,
+                                             std::string_view name) {
   VkFramebufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-  info.renderPass = pass.info.render_pass;
+  info.renderPass = table.render_pass;
   info.attachmentCount = static_cast<uint32_t>(views.size());
   info.pAttachments = views.data();
-  info.width = pass.rendering.area.extent.width;
-  info.height = pass.rendering.area.extent.height;
-  info.layers = pass.rendering.view_mask != 0 ? 1 : pass.rendering.layers;
+  info.width = table.area.extent.width;
+  info.height = table.area.extent.height;
+  info.layers = table.view_mask != 0 ? 1 : table.layers;
   VkFramebuffer framebuffer = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateFramebuffer(context.device.device, &info, context.vk().allocator, &framebuffer), "vkCreateFramebuffer", pass.info.name));
+  RG_TRY(check(context.vk().CreateFramebuffer(context.device.device, &info, context.vk().allocator, &framebuffer), "vkCreateFramebuffer", name));
   return UniqueFramebuffer(context.vk(), context.device.device, framebuffer);
 }
 
@@ -328,12 +372,11 @@ FramebufferEntry& framebuffer_slot(RenderingTable& table) {
   return *oldest;
 }
 
-Status update_framebuffer(const Context& context, const Sized& sized, PassTable& pass, uint64_t frame) {
-  RenderingTable& table = pass.rendering;
+Status update_framebuffer(const Context& context, const Sized& sized, RenderingTable& table, std::string_view name, uint64_t frame) {
   for (size_t i = 0; i < table.framebuffer_views.size(); ++i) table.framebuffer_handles[i] = view_at(sized, table.framebuffer_views[i], frame);
   FramebufferEntry* entry = find_framebuffer(table);
   if (entry == nullptr) {
-    Result<UniqueFramebuffer> created = create_framebuffer(context, pass, table.framebuffer_handles);
+    Result<UniqueFramebuffer> created = create_framebuffer(context, table, table.framebuffer_handles, name);
     if (!created) return created.error();
     entry = &framebuffer_slot(table);
     *entry = {table.framebuffer_handles, std::move(*created), 0};
@@ -343,11 +386,10 @@ Status update_framebuffer(const Context& context, const Sized& sized, PassTable&
   return Done{};
 }
 
-void begin_classic(const Context& context, PassTable& pass, VkCommandBuffer commands) {
-  RenderingTable& table = pass.rendering;
+void begin_classic(const Context& context, const RenderingTable& table, VkCommandBuffer commands) {
   VkRenderPassBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-  info.renderPass = pass.info.render_pass;
+  info.renderPass = table.render_pass;
   info.framebuffer = table.framebuffer;
   info.renderArea = table.area;
   info.clearValueCount = static_cast<uint32_t>(table.clears.size());
@@ -355,24 +397,25 @@ void begin_classic(const Context& context, PassTable& pass, VkCommandBuffer comm
   context.vk().CmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
 }
 
-void begin_dynamic(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame) {
-  if (!pass.rendering.fixed) fill_views(sized, pass.rendering, frame);
-  context.vk().CmdBeginRendering(commands, &pass.rendering.info);
+void begin_dynamic(const Context& context, const Sized& sized, RenderingTable& table, VkCommandBuffer commands, uint64_t frame) {
+  if (!table.fixed) fill_views(sized, table, frame);
+  context.vk().CmdBeginRendering(commands, &table.info);
 }
 
 }  // namespace
 
 Status update_framebuffers(const Context& context, Sized& sized, uint64_t frame) {
   for (PassTable& pass : sized.passes)
-    if (pass.runs && pass.info.render_pass != VK_NULL_HANDLE) RG_TRY(update_framebuffer(context, sized, pass, frame));
+    for (RenderingTable* table : {&pass.rendering, &pass.whole_rendering})
+      if (pass.runs && table->render_pass != VK_NULL_HANDLE) RG_TRY(update_framebuffer(context, sized, *table, pass.info.name, frame));
   return Done{};
 }
 
-void begin_rendering(const Context& context, const Sized& sized, PassTable& pass, VkCommandBuffer commands, uint64_t frame) {
-  if (pass.info.render_pass != VK_NULL_HANDLE)
-    begin_classic(context, pass, commands);
+void begin_rendering(const Context& context, const Sized& sized, RenderingTable& table, VkCommandBuffer commands, uint64_t frame) {
+  if (table.render_pass != VK_NULL_HANDLE)
+    begin_classic(context, table, commands);
   else
-    begin_dynamic(context, sized, pass, commands, frame);
+    begin_dynamic(context, sized, table, commands, frame);
 }
 
 }  // namespace rg

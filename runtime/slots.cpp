@@ -29,14 +29,23 @@ uint32_t pieces_of(const Context& context, const Batch& batch) {
   return std::clamp<uint32_t>(static_cast<uint32_t>(share), 1, std::max(batch.step_count, 1u));
 }
 
+// A command buffer holds whole renderings, unless every pass stands alone.
+bool is_within_rendering(const GraphInstance::State& state, Index step) {
+  const Step& row = state.context.plan.steps[step];
+  return !state.context.submit_per_pass && row.kind == StepKind::pass && !state.objects.passes[row.index].part.first;
+}
+
 void cut_batch(GraphInstance::State& state, Index b) {
   const Batch& batch = state.context.plan.batches[b];
   const uint32_t pieces = pieces_of(state.context, batch);
   const uint32_t family = family_of(state.context, batch.queue);
+  uint32_t begin = 0;
   for (uint32_t i = 0; i < pieces; ++i) {
-    const uint32_t begin = static_cast<uint32_t>(uint64_t{batch.step_count} * i / pieces),
-                   end = static_cast<uint32_t>(uint64_t{batch.step_count} * (i + 1) / pieces);
+    uint32_t end = static_cast<uint32_t>(uint64_t{batch.step_count} * (i + 1) / pieces);
+    while (end < batch.step_count && is_within_rendering(state, batch.first_step + end)) ++end;
+    if (end <= begin && i > 0) continue;
     state.chunks.push_back({b, batch.first_step + begin, end - begin, pool_for(state, family, state.context.threads > 1)});
+    begin = end;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "compiler/commands/command.h"
+#include "compiler/workarounds.h"
 
 namespace rg::commands {
 namespace {
@@ -38,20 +39,41 @@ void add_shader_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("--jobs", options.workers, "threads that compile shaders; default: one a core")->type_name("N")->check(CLI::Range(1u, 1024u));
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// Each alone switches off everything, with `=NAME,...` only what is named.
+void add_switches(CLI::App& command, compiler::PlanOptions& plan) {
+  const auto off = [&](const char* flag, bool& everything, std::set<std::string>& names, const char* help) {
+    const auto values = std::make_shared<std::vector<std::string>>();
+    command.add_flag(flag, *values, help)->type_name("[=NAME,...]")->delimiter(',')->each([&everything, &names, values](const std::string& value) {
+      if (value == "true")
+        everything = false;
+      else
+        names.insert(value);
+    });
+  };
+  off("--no-aliasing", plan.aliasing, plan.no_aliasing, "memory of its own for every resource");
+  off("--no-async", plan.async, plan.no_async, "one queue; a named pass stays on the first");
+  off("--no-reorder", plan.reorder, plan.no_reorder, "passes in the order written; a named pass keeps its place");
+  off("--no-merge", plan.merge, plan.no_merge, "a barrier group before every pass, every rendering of its own");
+  off("--no-discard", plan.discard, plan.no_discard, "all old contents kept, loaded and stored");
+  command
+      .add_option_function<std::string>(
+          "--workaround", [&plan](const std::string& name) { compiler::apply_workaround(plan, name); },
+          "the switches that a driver needs: " + joined(compiler::workaround_names()))
+      ->type_name("NAME")
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(compiler::workaround_names()).description(""));
+}
+
 // Options that change the plan.
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
-  const auto off = [&](const char* flag, bool& what, const char* help) {
-    command.add_flag_callback(
-        flag, [&what] { what = false; }, help);
-  };
-  off("--no-alias", options.plan.aliasing, "give every resource memory of its own");
-  off("--no-async", options.plan.async, "use one queue");
-  off("--no-reorder", options.plan.reorder, "keep the passes in the order written");
-  off("--no-merge", options.plan.merge, "a barrier group before every pass, every rendering of its own");
-  off("--no-discard", options.plan.discard, "load and store all attachments");
-  command.add_option("--keep-apart", options.plan.keep_apart, "a resource that shares no memory")->type_name("RESOURCE")->allow_extra_args(false);
-  command.add_option("--keep-home", options.plan.keep_home, "a pass that stays on the first queue")->type_name("PASS")->allow_extra_args(false);
+  add_switches(command, options.plan);
   const std::map<std::string, dsl::QueueKind> kinds = {
       {"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}};
   command.add_option("--queues", options.plan.queues, "what the plan may use, graphics first; default: graphics")

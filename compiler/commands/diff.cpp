@@ -59,8 +59,8 @@ std::string text_diff(const std::string& before, const std::string& after) {
 
 std::string facts_text(const Facts& facts) {
   return fmt::format(
-      "passes {}\nculled {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\nqueues {}\nmodelled time {:.1f} us\n",
-      facts.passes_live, facts.passes_culled, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls, facts.submits,
+      "passes {}\nculled {}\nrenderings {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\nqueues {}\nmodelled time {:.1f} us\n",
+      facts.passes_live, facts.passes_culled, facts.renderings, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls, facts.submits,
       facts.waits, facts.queues, facts.overlap.end / 1000);
 }
 

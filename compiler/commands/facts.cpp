@@ -148,6 +148,9 @@ Facts find_facts(const dsl::Program& program, const compiler::CompiledGraph& gra
   facts.variant = compiler::configuration_name(program, plan.configuration);
   facts.passes_live = plan.plan.passes.size();
   facts.passes_culled = plan.plan.culled.size();
+  facts.passes_raster = static_cast<size_t>(
+      std::count_if(plan.plan.passes.begin(), plan.plan.passes.end(), [](const Pass& pass) { return pass.rendering != kNone; }));
+  facts.renderings = plan.plan.renderings.size();
   facts.heap_bytes = plan.heap_bytes;
   facts.unaliased_bytes = plan.unaliased_bytes;
   facts.lower_bound_bytes = plan.lower_bound_bytes;
@@ -172,7 +175,11 @@ nlohmann::ordered_json to_json(const Facts& facts) {
   for (const double ns : facts.overlap.work) work.push_back(ns / 1000);
   return {{"graph", facts.graph},
           {"variant", facts.variant},
-          {"passes", {{"live", facts.passes_live}, {"culled", facts.passes_culled}}},
+          {"passes",
+           {{"live", facts.passes_live},
+            {"culled", facts.passes_culled},
+            {"raster", facts.passes_raster},
+            {"renderings", facts.renderings}}},
           {"memory", {{"heap_bytes", facts.heap_bytes}, {"unaliased_bytes", facts.unaliased_bytes}, {"lower_bound_bytes", facts.lower_bound_bytes}}},
           {"barriers",
            {{"calls", facts.barrier_calls},

@@ -14,6 +14,8 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
   std::string text = fmt::format("graph {}{}{}\n", facts.graph, facts.variant.empty() ? "" : "  ", facts.variant);
   text += fmt::format("  passes    {} live, {} culled\n", facts.passes_live, facts.passes_culled);
   for (const Culled& culled : plan.culled) text += fmt::format("              {}: {}\n", culled.pass, culled.reason);
+  if (facts.passes_raster > 0)
+    text += fmt::format("              {} in {}\n", counted(facts.passes_raster, "raster pass", "raster passes"), counted(facts.renderings, "rendering"));
   text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
                       mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);

@@ -76,7 +76,7 @@ TEST(Queues, OverlapIsPlannedWhereItPays) {
   one.async = false;
   EXPECT_EQ(plan_of(kOverlap, one).plan.queues.size(), 1u);
   one = kTwo;
-  one.keep_home = {"occlude", "blur"};
+  one.no_async = {"occlude", "blur"};
   EXPECT_EQ(plan_of(kOverlap, one).plan.queues.size(), 1u);
 }
 

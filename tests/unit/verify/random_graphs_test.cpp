@@ -72,6 +72,44 @@ TEST(RandomGraphs, PlansAreProved) {
   for (uint64_t seed = 0; seed < 1000; ++seed) ASSERT_EQ(findings_of(plan_random(seed, shape_of_seed(seed))), "") << "seed " << seed;
 }
 
+// Programs that draw into the same attachments again and again: what becomes one rendering is right, and there is some of it.
+TEST(RandomGraphs, RenderingsOfSeveralPassesAreProved) {
+  size_t merged = 0;
+  for (uint64_t seed = 0; seed < 400; ++seed) {
+    RandomShape shape = shape_of_seed(seed);
+    shape.continues = true;
+    const Planned planned = plan_random(seed, shape, kQueues[seed % 2]);
+    VerifyOptions options;
+    options.irredundancy = seed % 2 == 0;
+    ASSERT_EQ(findings_of(planned, options), "") << "seed " << seed;
+    if (seed % 8 == 0) ASSERT_FALSE(misbehaves(planned, planned.frame.plan.view())) << "seed " << seed;
+    for (const compiler::Decision& decision : planned.frame.decisions) merged += decision.what == "merged";
+  }
+  EXPECT_GT(merged, 100u);
+}
+
+// Every switch, on every program, leaves the plan right.
+TEST(RandomGraphs, PlansWithSwitchesAreProved) {
+  for (uint64_t seed = 0; seed < 160; ++seed) {
+    RandomShape shape = shape_of_seed(seed);
+    shape.continues = true;
+    Planned planned{make_random_program(seed, shape), {}};
+    compiler::PlanOptions options;
+    options.aliasing = (seed & 1) == 0, options.reorder = (seed & 2) == 0, options.merge = (seed & 4) == 0, options.discard = (seed & 8) == 0;
+    options.queues = kQueues[seed % 3];
+    const auto& graph = planned.program.graphs[kGraph];
+    if (seed % 5 == 0) {
+      const std::string& pass = graph.passes.rows[seed % graph.passes.size()].name;
+      options.no_reorder = {pass}, options.no_merge = {graph.passes.rows.back().name, pass}, options.no_async = {pass};
+      options.no_aliasing = options.no_discard = {graph.resources.rows[seed % graph.resources.size()].name};
+    }
+    planned.frame = compiler::plan_frame(planned.program, kGraph, {}, options);
+    VerifyOptions verify;
+    verify.irredundancy = false;
+    ASSERT_EQ(findings_of(planned, verify), "") << "seed " << seed;
+  }
+}
+
 TEST(RandomGraphs, PlansOnSeveralQueuesAreProved) {
   size_t several = 0;
   for (uint64_t seed = 0; seed < (is_long() ? 2500u : 300u); ++seed) {

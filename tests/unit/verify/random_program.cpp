@@ -256,10 +256,34 @@ class Generator {
 
   bool add_raster() {
     pass_.kind = PassKind::raster;
+    if (shape_.continues && one_in(2)) return continue_rendering();
     add_reads(one_in(4) ? stage_vertex | stage_fragment : stage_fragment);
     bool writes = false;
     for (uint32_t n = 1 + below(2); n > 0; --n) writes = add_color(one_in(6) ? 0 : any_resource()) || writes;
     writes = add_depth(any_resource()) || writes;
+    if (one_in(4)) writes = add_storage_write(stage_fragment) || writes;
+    return writes;
+  }
+  // The attachments of the last raster pass, kept.
+  bool continue_rendering() {
+    const auto& passes = graph_.passes.rows;
+    const auto last = std::find_if(passes.rbegin(), passes.rend(), [](const Pass& pass) { return pass.kind == PassKind::raster; });
+    if (last == passes.rend()) return false;
+    bool writes = false;
+    for (Access a : last->accesses) {
+      if (a.role != Role::color && a.role != Role::depth && a.role != Role::depth_readonly) continue;
+      const uint32_t r = a.resource.value;
+      if (!is_defined(r, a.range) || !may_limit(r, a.range)) return false;
+      limit_mips(r, a.range);
+      a.clear = {}, a.covers = false;
+      if (a.role == Role::color) a.mode = Mode::update, a.blend.enabled = one_in(2) && row(r).format != Format::r32ui;
+      if (a.role != Role::color) a.role = one_in(2) ? Role::depth : Role::depth_readonly;
+      if (a.role == Role::depth) a.mode = Mode::update;
+      if (a.role == Role::depth_readonly) a.mode = Mode::read;
+      writes = writes || a.mode != Mode::read;
+      pass_.accesses.push_back(a);
+    }
+    if (one_in(2)) add_reads(stage_fragment);
     if (one_in(4)) writes = add_storage_write(stage_fragment) || writes;
     return writes;
   }

@@ -10,6 +10,7 @@ namespace rg::verify {
 struct RandomShape {
   uint32_t passes = 20, images = 6, buffers = 4;
   uint32_t conditions = 2;
+  bool continues = false;  // half of the raster passes draw into the attachments of the one before
 };
 // One graph with a surface, transients with mips, layers and depth, histories, persistent and imported resources, read-backs; compute, raster and
 // transfer passes, conditional ones, atomics, `disjoint` writers, `after`, orders and permissions of queues. The same seed gives the same program.
