@@ -196,37 +196,37 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128, .import_slot = 0,
-     .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
+     .layout = 726144499, .import_slot = 0, .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
     {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 71, .stride = 80,
-     .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
+     .layout = 2864363377, .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
     {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
-     .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
+     .layout = 3875358314, .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
     {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
-     .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48, .import_slot = 4,
-     .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4, .import_slot = 5,
-     .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32, .import_slot = 6,
-     .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
+     .layout = 3506255352, .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
+     .layout = 2983543026, .import_slot = 4, .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4,
+     .layout = 1948121759, .import_slot = 5, .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32,
+     .layout = 1832413415, .import_slot = 6, .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
     {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 75, .stride = 4,
-     .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
+     .layout = 1948121759, .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
      .estimated_alignment = 256, .estimated_offset = 18153472, .line = 21, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
-     .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4,
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 256, .line = 23, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
      .estimated_alignment = 65536, .line = 36, .file = "passes.rg"},
-    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .estimated_bytes = 131072,
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
      .estimated_alignment = 256, .estimated_offset = 12992512, .line = 59, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
      .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 60, .file = "passes.rg"},
@@ -234,10 +234,10 @@ constexpr Resource kResources[] = {
      .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 86, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
-    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
-     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 2359296, .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 100, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
@@ -252,22 +252,22 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
      .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 114, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10485760, .line = 132, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 132, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18284544, .line = 136, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
      .estimated_alignment = 256, .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
     {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 89, .stride = 4,
-     .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
+     .layout = 1948121759, .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 185, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
@@ -284,10 +284,10 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 226, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .line = 285, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
+     .estimated_alignment = 256, .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .layout = 2946367551,
+     .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
      .init = InitKind::clear, .estimated_bytes = 1900544, .line = 312, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
@@ -721,7 +721,7 @@ constexpr Pass kPasses[] = {
      .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
     {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 2, .pipeline = 4,
-     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 48, .file = "passes.rg"},
     {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 3,
      .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
@@ -736,7 +736,7 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
     {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 6, .pipeline = 8,
-     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
     {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 7,
      .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
@@ -807,7 +807,7 @@ constexpr Pass kPasses[] = {
      .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
      .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 156, .file = "passes.rg"},
     {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
-     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 209, .file = "passes.rg"},
     {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
      .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 149, .file = "passes.rg"},
@@ -824,10 +824,10 @@ constexpr Pass kPasses[] = {
      .first_binding = 131, .binding_count = 18, .first_params = 30, .params_count = 2,
      .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 236, .file = "passes.rg"},
     {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 14, .pipeline = 35,
-     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
+     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17, .push_layout = 2478537437,
      .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 258, .file = "passes.rg"},
     {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 15, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
+     .push_stages = 17, .push_layout = 1519638825, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
     {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 5, .pipeline = 36,
      .first_binding = 163, .binding_count = 6, .first_params = 34, .params_count = 1,
      .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 329, .file = "passes.rg"},
@@ -2283,9 +2283,9 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "camera", .bytes = 528},
-    {.name = "fog", .bytes = 112},
-    {.name = "lamps", .bytes = 384},
+    {.name = "camera", .bytes = 528, .layout = 2927969200},
+    {.name = "fog", .bytes = 112, .layout = 3517107466},
+    {.name = "lamps", .bytes = 384, .layout = 2251160174},
 };
 
 constexpr Index kPassParams[] = {
@@ -2331,10 +2331,17 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(std::move(*instance));
+  return Frame(plan(), std::move(*instance), options);
 }
 
-rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Frame(plan(), std::move(*instance), options);
+}
+
+rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
                          void* recorder) {
@@ -2362,17 +2369,17 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
   };
   inputs.params = params_rows;
   if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::cull_counts() {
-  const auto bytes = instance_.readback(resource::cull_counts);
+  const auto bytes = read_back(resource::cull_counts);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::tile_features() {
-  const auto bytes = instance_.readback(resource::tile_features);
+  const auto bytes = read_back(resource::tile_features);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
