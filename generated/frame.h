@@ -646,11 +646,15 @@ inline constexpr rg::Index color = 45;
 inline constexpr rg::Index bloom = 46;
 }
 
-class Frame {
+class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<Frame> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
@@ -670,8 +674,6 @@ class Frame {
   // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:139
   rg::Result<std::span<const uint32_t>> tile_features();
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   template <class R, class Pass, auto method>
   static void record(void* user, rg::Recording& recording) {
@@ -679,8 +681,7 @@ class Frame {
     method(*static_cast<R*>(user), pass);
   }
   rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder);
-  explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace frame

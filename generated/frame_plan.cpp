@@ -5,11 +5,11 @@
 #include <string_view>
 
 #include "shaders/passes_geometry_mesh_cull.comp.spv.h"
-#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
 #include "shaders/passes_geometry_sun_world.vert.spv.h"
+#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
+#include "shaders/passes_geometry_depth_world.vert.spv.h"
 #include "shaders/passes_geometry_sun_props.vert.spv.h"
 #include "shaders/passes_geometry_lamp_world.vert.spv.h"
-#include "shaders/passes_geometry_depth_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_props.vert.spv.h"
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
@@ -17,10 +17,10 @@
 #include "shaders/passes_fog_fog_inject.comp.spv.h"
 #include "shaders/passes_fog_fog_light.comp.spv.h"
 #include "shaders/passes_fog_fog_integrate.comp.spv.h"
-#include "shaders/passes_culling_zbin_build.comp.spv.h"
-#include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
+#include "shaders/passes_culling_zbin_build.comp.spv.h"
+#include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.frag.spv.h"
 #include "shaders/passes_culling_zbin_pack.comp.spv.h"
@@ -152,10 +152,10 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::ceil_div, .a = 45, .b = 94},  // 102
     {.op = ExprOp::ceil_div, .a = 46, .b = 94},  // 103
     {.op = ExprOp::ceil_div, .a = 47, .b = 94},  // 104
-    {.op = ExprOp::ceil_div, .a = 49, .b = 94},  // 105
-    {.op = ExprOp::ceil_div, .a = 50, .b = 94},  // 106
-    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 107
-    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 108
+    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 105
+    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 106
+    {.op = ExprOp::ceil_div, .a = 49, .b = 94},  // 107
+    {.op = ExprOp::ceil_div, .a = 50, .b = 94},  // 108
     {.op = ExprOp::ceil_div, .a = 52, .b = 94},  // 109
     {.op = ExprOp::ceil_div, .a = 53, .b = 94},  // 110
     {.op = ExprOp::ceil_div, .a = 55, .b = 94},  // 111
@@ -181,13 +181,13 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::ceil_div, .a = 66, .b = 94},  // 131
     {.op = ExprOp::ceil_div, .a = 67, .b = 94},  // 132
     {.op = ExprOp::constant, .value = 3},  // 133
-    {.op = ExprOp::constant, .value = 32768},  // 134
-    {.op = ExprOp::constant, .value = 65536},  // 135
-    {.op = ExprOp::constant, .value = 98304},  // 136
-    {.op = ExprOp::constant, .value = 16384},  // 137
-    {.op = ExprOp::constant, .value = 49152},  // 138
-    {.op = ExprOp::constant, .value = 81920},  // 139
-    {.op = ExprOp::constant, .value = 114688},  // 140
+    {.op = ExprOp::constant, .value = 49152},  // 134
+    {.op = ExprOp::constant, .value = 32768},  // 135
+    {.op = ExprOp::constant, .value = 81920},  // 136
+    {.op = ExprOp::constant, .value = 114688},  // 137
+    {.op = ExprOp::constant, .value = 16384},  // 138
+    {.op = ExprOp::constant, .value = 65536},  // 139
+    {.op = ExprOp::constant, .value = 98304},  // 140
 };
 
 constexpr Extent kExtents[] = {
@@ -196,48 +196,48 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128, .import_slot = 0,
-     .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
+     .layout = 726144499, .import_slot = 0, .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
     {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 71, .stride = 80,
-     .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
+     .layout = 2864363377, .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
     {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
-     .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
+     .layout = 3875358314, .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
     {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
-     .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48, .import_slot = 4,
-     .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4, .import_slot = 5,
-     .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32, .import_slot = 6,
-     .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
+     .layout = 3506255352, .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
+     .layout = 2983543026, .import_slot = 4, .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4,
+     .layout = 1948121759, .import_slot = 5, .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32,
+     .layout = 1832413415, .import_slot = 6, .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
     {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 75, .stride = 4,
-     .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
+     .layout = 1948121759, .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
      .estimated_alignment = 256, .estimated_offset = 18153472, .line = 21, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
-     .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4,
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 256, .line = 23, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
      .estimated_alignment = 65536, .line = 36, .file = "passes.rg"},
-    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 59, .file = "passes.rg"},
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
+     .estimated_alignment = 256, .estimated_offset = 12992512, .line = 59, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
      .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 60, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 86, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
-    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
-     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 2359296, .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 100, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
@@ -252,22 +252,22 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
      .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 114, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10485760, .line = 132, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 132, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18284544, .line = 136, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
      .estimated_alignment = 256, .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
     {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 89, .stride = 4,
-     .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
+     .layout = 1948121759, .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 185, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
@@ -284,10 +284,10 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 226, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .line = 285, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
+     .estimated_alignment = 256, .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .layout = 2946367551,
+     .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
      .init = InitKind::clear, .estimated_bytes = 1900544, .line = 312, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
@@ -303,9 +303,6 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
-    // lamp_cull
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
@@ -314,6 +311,16 @@ constexpr Access kAccesses[] = {
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
+    // lamp_cull
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    // depth_world
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
     // sun_shadow_props
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
@@ -339,18 +346,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[1]
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    // depth_world
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
-    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
-    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
-    // depth_props
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
@@ -360,6 +355,11 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
+    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
+    // depth_props
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
@@ -369,10 +369,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 34, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[3]
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
@@ -382,6 +378,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[4]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
@@ -391,10 +391,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
@@ -404,6 +400,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
@@ -413,10 +413,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 38, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
     // froxel_fog.clusters.cull
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     // froxel_fog.clusters.cull
@@ -425,10 +421,10 @@ constexpr Access kAccesses[] = {
      .writes = true},  // froxel_fog.clusters.cull
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
      .writes = true},  // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
     // froxel_fog.chain.inject
     {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     // froxel_fog.chain.inject
@@ -437,10 +433,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.inject
     {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.inject
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.chain.light
     // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
@@ -460,10 +456,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
     {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -472,6 +468,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[6]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
@@ -483,16 +483,6 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::zbin_min}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
     {.ref = {.resource = resource::zbin_max}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
     {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
-    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
-    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
-    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
@@ -514,6 +504,16 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_world
     {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // gbuffer_world
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
+    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
+    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // gbuffer_props
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // gbuffer_props
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
@@ -711,82 +711,82 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 25, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
      .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
-    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 5, .access_count = 2, .pipeline = 1,
-     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 18, .z = 30},
-     .line = 63, .file = "passes.rg"},
-    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 7, .access_count = 5, .rendering = 0, .pipeline = 2,
-     .first_binding = 9, .binding_count = 4, .first_params = 3, .params_count = 1,
+    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
+     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 38, .file = "passes.rg"},
-    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 3, .rendering = 0, .pipeline = 3,
-     .first_binding = 13, .binding_count = 1, .first_params = 4, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 10, .access_count = 2, .pipeline = 2,
+     .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 18, .z = 30},
+     .line = 63, .file = "passes.rg"},
+    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
+     .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
+    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 2, .pipeline = 4,
+     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 48, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 15, .access_count = 5, .rendering = 1,
-     .pipeline = 4, .first_binding = 14, .binding_count = 4, .first_params = 5, .params_count = 1,
+    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 3,
+     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 2,
-     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
+    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 4,
+     .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 25, .access_count = 5, .rendering = 3, .pipeline = 6,
-     .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
-    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 30, .access_count = 3, .rendering = 3, .pipeline = 7,
-     .first_binding = 26, .binding_count = 1, .first_params = 8, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 33, .access_count = 5, .rendering = 4,
-     .pipeline = 8, .first_binding = 27, .binding_count = 4, .first_params = 9, .params_count = 1,
+    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 30, .access_count = 5, .rendering = 5,
+     .pipeline = 7, .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 5,
+    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 6, .pipeline = 8,
+     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 7,
      .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 43, .access_count = 2, .pipeline = 10,
-     .first_binding = 35, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 116, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 45, .access_count = 5, .rendering = 6,
-     .pipeline = 11, .first_binding = 37, .binding_count = 4, .first_params = 11, .params_count = 1,
+    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 8,
+     .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 7,
+    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
+     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 116, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 9,
      .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 55, .access_count = 2, .pipeline = 13,
-     .first_binding = 45, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 123,
-     .file = "passes.rg"},
-    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 57, .access_count = 5, .rendering = 8,
-     .pipeline = 14, .first_binding = 47, .binding_count = 4, .first_params = 13, .params_count = 1,
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 10,
+     .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 9,
+    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
+     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 123,
+     .file = "passes.rg"},
+    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 11,
      .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
      .line = 72, .file = "passes.rg"},
-    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 67, .access_count = 2, .pipeline = 16,
-     .first_binding = 55, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 69, .access_count = 4, .pipeline = 17,
-     .first_binding = 57, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
+     .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 39, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 73, .access_count = 2, .pipeline = 18,
-     .first_binding = 63, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
+    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
+     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 75, .access_count = 4, .pipeline = 19,
-     .first_binding = 65, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+    {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
+     .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 57, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 79, .access_count = 2, .pipeline = 20,
-     .first_binding = 71, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
+     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 81, .access_count = 10, .pipeline = 21,
-     .first_binding = 73, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+    {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
+     .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 67, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 91, .access_count = 2, .pipeline = 22,
-     .first_binding = 85, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .first_mip_limit = 7,
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
+     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 93, .access_count = 4, .pipeline = 23,
-     .first_binding = 87, .binding_count = 6, .first_params = 21, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
+     .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
+     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
     {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
      .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 9,
      .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
@@ -797,17 +797,17 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 141, .file = "passes.rg"},
     {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 156, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 104, .access_count = 3, .pipeline = 26, .first_binding = 97,
-     .binding_count = 4, .first_params = 23, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 141,
-     .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 107, .access_count = 3, .pipeline = 27,
-     .first_binding = 101, .binding_count = 4, .first_params = 24, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 156, .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 110, .access_count = 13, .rendering = 10, .pipeline = 28,
-     .first_binding = 105, .binding_count = 7, .first_params = 25, .params_count = 1,
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
+     .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 191, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 10, .pipeline = 29,
-     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
+     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 141,
+     .file = "passes.rg"},
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
+     .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 156, .file = "passes.rg"},
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
+     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 209, .file = "passes.rg"},
     {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
      .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 149, .file = "passes.rg"},
@@ -823,11 +823,11 @@ constexpr Pass kPasses[] = {
     {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 146, .access_count = 16, .pipeline = 34,
      .first_binding = 131, .binding_count = 18, .first_params = 30, .params_count = 2,
      .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 236, .file = "passes.rg"},
-    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 11, .pipeline = 35,
-     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
+    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 14, .pipeline = 35,
+     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17, .push_layout = 2478537437,
      .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 258, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 11, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 15, .push_bytes = 80,
+     .push_stages = 17, .push_layout = 1519638825, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
     {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 5, .pipeline = 36,
      .first_binding = 163, .binding_count = 6, .first_params = 34, .params_count = 1,
      .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 329, .file = "passes.rg"},
@@ -873,7 +873,7 @@ constexpr Pass kPasses[] = {
     {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 225, .access_count = 2, .pipeline = 50,
      .first_binding = 213, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 30,
      .mip_limit_count = 1, .line = 354, .file = "passes.rg"},
-    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 227, .access_count = 5, .rendering = 12, .pipeline = 51,
+    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 227, .access_count = 5, .rendering = 16, .pipeline = 51,
      .first_binding = 215, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 133}, .line = 361,
      .file = "passes.rg"},
 };
@@ -917,18 +917,28 @@ constexpr ImageBarrier kImageBarriers[] = {
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 2},
-     .src_stages = stage::fragment_shader | stage::compute_shader, .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 2}, .src_stages = stage::fragment_shader,
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
+     .new_layout = Layout::depth_attachment},  // sun_shadow_world -> sun_shadow_props
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 3}, .src_stages = stage::fragment_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[1] -> lamp_shadow_world[2]
+     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
+    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
+     .new_layout = Layout::depth_attachment},  // depth_world -> depth_props
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 2}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[2] -> lamp_shadow_world[3]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader,
@@ -937,29 +947,26 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> depth_range_first
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 2}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 2}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[3] -> lamp_shadow_world[4]
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_first -> depth_range_down[1]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[5] -> lamp_shadow_world[6]
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[6] -> lamp_shadow_world[7]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> froxel_fog.chain.inject
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
@@ -983,9 +990,9 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.chain.light
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
@@ -998,15 +1005,15 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[5] -> depth_range_down[6]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
     {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
@@ -1022,6 +1029,29 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
+    {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
+    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
+    {.image = {.resource = resource::material}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
+    {.image = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
+    {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
     {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> ambient_occlusion
@@ -1055,6 +1085,10 @@ constexpr ImageBarrier kImageBarriers[] = {
      .src_accesses = access::shader_storage_write, .dst_stages = stage::color_attachment_output,
      .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::general,
      .new_layout = Layout::color_attachment},  // deferred_light -> transparent
+    {.image = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
+     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
+     .new_layout = Layout::color_attachment},  // transparent -> hologram
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> resolve_temporal
@@ -1137,25 +1171,27 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
+    // frame start -> mesh_cull
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // mesh_cull.clear -> mesh_cull
-    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
-     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     // lamp_cull -> lamp_shadow_world[0]
     {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 134}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[1] -> lamp_shadow_world[2]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 134, .size = 134}, .src_stages = stage::compute_shader,
+    // lamp_shadow_world[2] -> lamp_shadow_world[3]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 134, .size = 135}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[3] -> lamp_shadow_world[4]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 135, .size = 134}, .src_stages = stage::compute_shader,
+    // lamp_shadow_world[4] -> lamp_shadow_world[5]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136, .size = 135}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[5] -> lamp_shadow_world[6]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136}, .src_stages = stage::compute_shader,
+    // lamp_shadow_world[6] -> lamp_shadow_world[7]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 137}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.inject
@@ -1201,33 +1237,35 @@ constexpr BufferBarrier kBufferBarriers[] = {
 constexpr BarrierGroup kGroups[] = {
     {},  // before mesh_cull.clear  passes.rg:25
     {.buffer_count = 2},  // before mesh_cull  passes.rg:25
-    {.image_count = 3, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:38
-    {.first_image = 3, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before lamp_shadow_world[2]  passes.rg:72
-    {.first_image = 6, .image_count = 2, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[4]  passes.rg:72
-    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[6]  passes.rg:72
-    {.first_image = 10, .image_count = 1},  // before froxel_fog.clusters.cull  passes/fog/fog.rg:39
-    {.first_image = 11, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
-    {.first_image = 13, .image_count = 8, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
-    {.first_image = 21, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
-    {.first_image = 26, .image_count = 1, .first_buffer = 10, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
-    {.first_image = 27, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before zbin_build  passes.rg:141
-    {.first_image = 33, .image_count = 2, .first_buffer = 14, .buffer_count = 3},  // before zbin_pack  passes.rg:149
-    {.first_image = 35, .image_count = 7, .first_buffer = 17, .buffer_count = 3},  // before deferred_light  passes.rg:236
-    {.first_image = 42, .image_count = 1, .first_buffer = 20, .buffer_count = 1},  // before transparent  passes.rg:258
-    {.first_image = 43, .image_count = 3},  // before resolve_temporal  passes.rg:329
-    {.first_image = 46, .image_count = 3},  // before bloom_first  passes.rg:339
-    {.first_image = 49, .image_count = 1},  // before bloom_down[1]  passes.rg:346
-    {.first_image = 50, .image_count = 1},  // before bloom_down[2]  passes.rg:346
-    {.first_image = 51, .image_count = 2, .first_buffer = 21, .buffer_count = 1},  // before debug_view  passes.rg:286
-    {.first_image = 53, .image_count = 1, .first_buffer = 22, .buffer_count = 1},  // before luminance  passes.rg:315
-    {.first_image = 54, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before expose  passes.rg:321
-    {.first_image = 55, .image_count = 2},  // before bloom_up[1]  passes.rg:354
-    {.first_image = 57, .image_count = 2},  // before bloom_up[2]  passes.rg:354
-    {.first_image = 59, .image_count = 2},  // before bloom_up[3]  passes.rg:354
-    {.first_image = 61, .image_count = 2},  // before bloom_up[4]  passes.rg:354
-    {.first_image = 63, .image_count = 2},  // before bloom_up[5]  passes.rg:354
-    {.first_image = 65, .image_count = 3, .first_buffer = 24, .buffer_count = 1},  // before tonemap  passes.rg:361
-    {.first_image = 68, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // at the end of the frame
+    {.image_count = 2, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:38
+    {.first_image = 2, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:48
+    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:72
+    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:72
+    {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:72
+    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
+    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
+    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
+    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
+    {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
+    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:141
+    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:149
+    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:236
+    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:258
+    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:279
+    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:329
+    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:339
+    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:346
+    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:346
+    {.first_image = 59, .image_count = 2, .first_buffer = 22, .buffer_count = 1},  // before debug_view  passes.rg:286
+    {.first_image = 61, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:315
+    {.first_image = 62, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before expose  passes.rg:321
+    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:354
+    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:354
+    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:354
+    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:354
+    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:354
+    {.first_image = 73, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:361
+    {.first_image = 76, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1251,14 +1289,14 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1368,14 +1406,14 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 137}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1480,98 +1518,98 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 2},
     {.resource = resource::sun_shadow, .group = 2, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 6},
-    {.resource = resource::lamp_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
-     .first_clock = 4},
-    {.resource = resource::scattered, .group = 9, .image_barrier = 21, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
+    {.resource = resource::lamp_draws, .group = 2, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 2,
+     .first_clock = 6},
+    {.resource = resource::scattered, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 9, .first_clock = 22},
-    {.resource = resource::transmittance, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::transmittance, .group = 9, .image_barrier = 23, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 9, .first_clock = 24},
     {.resource = resource::froxel_fog_cluster_volumes, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
      .point = 6, .first_clock = 12},
     {.resource = resource::froxel_fog_cluster_lights, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
      .point = 6, .first_clock = 14},
-    {.resource = resource::froxel_fog_density, .group = 7, .image_barrier = 11, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::froxel_fog_density, .group = 7, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 7, .first_clock = 16},
-    {.resource = resource::froxel_fog_inscatter, .group = 8, .image_barrier = 16, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::froxel_fog_inscatter, .group = 8, .image_barrier = 17, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 8, .first_clock = 18},
-    {.resource = resource::froxel_fog_extinction, .group = 8, .image_barrier = 17, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::froxel_fog_extinction, .group = 8, .image_barrier = 18, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 8, .first_clock = 20},
-    {.resource = resource::depth, .group = 2, .image_barrier = 2, .image_barriers = 1,
+    {.resource = resource::depth, .group = 2, .image_barrier = 1, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 8},
-    {.resource = resource::depth_range, .group = 3, .image_barrier = 5, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 3, .first_clock = 10},
-    {.resource = resource::zbin_min, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 26},
-    {.resource = resource::zbin_max, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 28},
-    {.resource = resource::zbins, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+    {.resource = resource::depth_range, .group = 4, .image_barrier = 7, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 4, .first_clock = 10},
+    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 26},
+    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 28},
+    {.resource = resource::zbins, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 42},
-    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 30},
-    {.resource = resource::tile_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 30},
+    {.resource = resource::tile_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 44},
-    {.resource = resource::forward_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+    {.resource = resource::forward_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 46},
-    {.resource = resource::tile_records, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+    {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
      .first_clock = 48},
-    {.resource = resource::albedo, .group = 11, .image_barrier = 28, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
-    {.resource = resource::normal, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 34},
-    {.resource = resource::material, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::material, .group = 11, .image_barrier = 31, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 36},
-    {.resource = resource::emissive, .group = 11, .image_barrier = 31, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::emissive, .group = 11, .image_barrier = 32, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 38},
-    {.resource = resource::velocity, .group = 11, .image_barrier = 32, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 40},
-    {.resource = resource::occlusion, .group = 12, .image_barrier = 34, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 12, .first_clock = 50},
-    {.resource = resource::hdr, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
-    {.resource = resource::debug_image, .group = 19, .image_barrier = 51, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 19, .first_clock = 56},
-    {.resource = resource::histogram, .group = 19, .stages = stage::clear, .accesses = access::transfer_write, .point = 19, .first_clock = 58},
-    {.resource = resource::bloom, .group = 16, .image_barrier = 47, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 16, .first_clock = 54},
+    {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 13, .first_clock = 50},
+    {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 14, .first_clock = 52},
+    {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 21, .first_clock = 56},
+    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 58},
+    {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 18, .first_clock = 54},
 };
 
 constexpr Release kReleases[] = {
     {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 12},
     {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 3},
-    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 15},
-    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 6},
-    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 20},
-    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 20},
+    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 16},
+    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 7},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
     {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 8},
     {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 9},
     {.resource = resource::froxel_fog_density, .stages = stage::compute_shader, .point = 9},
     {.resource = resource::froxel_fog_inscatter, .stages = stage::compute_shader, .point = 10},
     {.resource = resource::froxel_fog_extinction, .stages = stage::compute_shader, .point = 10},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 20},
-    {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 20},
-    {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 20},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 20},
-    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 28},
-    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 28},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 22},
+    {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 14},
+    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 14},
+    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 14},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
+    {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 14},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
+    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::normal, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::material, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 23},
+    {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 30},
+    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 24},
+    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 30},
 };
 
 constexpr Index kAliasClocks[] = {
-    1, 29, 1, 29, 1, 29, 2, 29, 2, 29, 3, 29, 6, 29, 6, 29,
-    7, 29, 8, 29, 8, 29, 9, 29, 9, 29, 10, 29, 10, 29, 10, 29,
-    11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 12, 29, 12, 29, 12, 29,
-    12, 29, 12, 29, 13, 29, 16, 29, 19, 29, 19, 29,
+    1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 6, 31, 6, 31,
+    7, 31, 8, 31, 8, 31, 9, 31, 9, 31, 11, 31, 11, 31, 11, 31,
+    11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 13, 31, 13, 31, 13, 31,
+    13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
 };
 
 constexpr Queue kQueues[] = {
@@ -1583,105 +1621,111 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::mesh_cull_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
-    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::barriers, .index = 2},
     {.kind = StepKind::pass, .index = pass::sun_shadow_world},
+    {.kind = StepKind::pass, .index = pass::lamp_cull},
+    {.kind = StepKind::pass, .index = pass::depth_world},
+    {.kind = StepKind::barriers, .index = 3},
     {.kind = StepKind::pass, .index = pass::sun_shadow_props},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
-    {.kind = StepKind::pass, .index = pass::depth_world},
-    {.kind = StepKind::pass, .index = pass::depth_props},
-    {.kind = StepKind::barriers, .index = 3},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
-    {.kind = StepKind::pass, .index = pass::depth_range_first},
+    {.kind = StepKind::pass, .index = pass::depth_props},
     {.kind = StepKind::barriers, .index = 4},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_1},
+    {.kind = StepKind::pass, .index = pass::depth_range_first},
     {.kind = StepKind::barriers, .index = 5},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_2},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 6},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
     {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_3},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 7},
     {.kind = StepKind::pass, .index = pass::froxel_fog_chain_inject},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_4},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_3},
     {.kind = StepKind::barriers, .index = 8},
     {.kind = StepKind::pass, .index = pass::froxel_fog_chain_light},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_5},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_4},
     {.kind = StepKind::barriers, .index = 9},
     {.kind = StepKind::pass, .index = pass::froxel_fog_chain_integrate},
-    {.kind = StepKind::pass, .index = pass::depth_range_down_6},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_5},
     {.kind = StepKind::barriers, .index = 10},
+    {.kind = StepKind::pass, .index = pass::depth_range_down_6},
+    {.kind = StepKind::barriers, .index = 11},
     {.kind = StepKind::pass, .index = pass::depth_range_down_7},
     {.kind = StepKind::pass, .index = pass::zbin_build_clear},
     {.kind = StepKind::pass, .index = pass::light_occlusion_clear},
-    {.kind = StepKind::barriers, .index = 11},
+    {.kind = StepKind::pass, .index = pass::gbuffer_world},
+    {.kind = StepKind::barriers, .index = 12},
     {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::pass, .index = pass::light_occlusion},
-    {.kind = StepKind::pass, .index = pass::gbuffer_world},
     {.kind = StepKind::pass, .index = pass::gbuffer_props},
-    {.kind = StepKind::barriers, .index = 12},
+    {.kind = StepKind::barriers, .index = 13},
     {.kind = StepKind::pass, .index = pass::zbin_pack},
     {.kind = StepKind::pass, .index = pass::light_cull},
     {.kind = StepKind::pass, .index = pass::tile_cull},
     {.kind = StepKind::pass, .index = pass::ambient_occlusion},
-    {.kind = StepKind::barriers, .index = 13},
-    {.kind = StepKind::pass, .index = pass::deferred_light},
     {.kind = StepKind::barriers, .index = 14},
-    {.kind = StepKind::pass, .index = pass::transparent},
-    {.kind = StepKind::pass, .index = pass::hologram},
+    {.kind = StepKind::pass, .index = pass::deferred_light},
     {.kind = StepKind::barriers, .index = 15},
-    {.kind = StepKind::pass, .index = pass::resolve_temporal},
+    {.kind = StepKind::pass, .index = pass::transparent},
     {.kind = StepKind::barriers, .index = 16},
-    {.kind = StepKind::pass, .index = pass::bloom_first},
+    {.kind = StepKind::pass, .index = pass::hologram},
     {.kind = StepKind::barriers, .index = 17},
-    {.kind = StepKind::pass, .index = pass::bloom_down_1},
+    {.kind = StepKind::pass, .index = pass::resolve_temporal},
     {.kind = StepKind::barriers, .index = 18},
-    {.kind = StepKind::pass, .index = pass::bloom_down_2},
+    {.kind = StepKind::pass, .index = pass::bloom_first},
     {.kind = StepKind::barriers, .index = 19},
+    {.kind = StepKind::pass, .index = pass::bloom_down_1},
+    {.kind = StepKind::barriers, .index = 20},
+    {.kind = StepKind::pass, .index = pass::bloom_down_2},
+    {.kind = StepKind::barriers, .index = 21},
     {.kind = StepKind::pass, .index = pass::debug_view},
     {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_down_3},
-    {.kind = StepKind::barriers, .index = 20},
+    {.kind = StepKind::barriers, .index = 22},
     {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_4},
-    {.kind = StepKind::barriers, .index = 21},
+    {.kind = StepKind::barriers, .index = 23},
     {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_down_5},
-    {.kind = StepKind::barriers, .index = 22},
-    {.kind = StepKind::pass, .index = pass::bloom_up_1},
-    {.kind = StepKind::barriers, .index = 23},
-    {.kind = StepKind::pass, .index = pass::bloom_up_2},
     {.kind = StepKind::barriers, .index = 24},
-    {.kind = StepKind::pass, .index = pass::bloom_up_3},
+    {.kind = StepKind::pass, .index = pass::bloom_up_1},
     {.kind = StepKind::barriers, .index = 25},
-    {.kind = StepKind::pass, .index = pass::bloom_up_4},
+    {.kind = StepKind::pass, .index = pass::bloom_up_2},
     {.kind = StepKind::barriers, .index = 26},
-    {.kind = StepKind::pass, .index = pass::bloom_up_5},
+    {.kind = StepKind::pass, .index = pass::bloom_up_3},
     {.kind = StepKind::barriers, .index = 27},
-    {.kind = StepKind::pass, .index = pass::tonemap},
+    {.kind = StepKind::pass, .index = pass::bloom_up_4},
     {.kind = StepKind::barriers, .index = 28},
+    {.kind = StepKind::pass, .index = pass::bloom_up_5},
+    {.kind = StepKind::barriers, .index = 29},
+    {.kind = StepKind::pass, .index = pass::tonemap},
+    {.kind = StepKind::barriers, .index = 30},
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 86},
+    {.step_count = 88},
 };
 
 constexpr Attachment kAttachments[] = {
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 1, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 3, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 4, .layers = 1},
@@ -1704,6 +1748,22 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
      .load = LoadOp::load, .store = StoreOp::none},
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::velocity}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
+     .load = LoadOp::load, .store = StoreOp::none},
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
+     .load = LoadOp::load, .store = StoreOp::store},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
+     .load = LoadOp::load, .store = StoreOp::none},
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
@@ -1714,27 +1774,31 @@ constexpr Attachment kAttachments[] = {
 
 constexpr Rendering kRenderings[] = {
     {.depth = 0, .width = 5, .height = 5},
-    {.depth = 1, .width = 0, .height = 0},
-    {.depth = 2, .width = 0, .height = 0},
-    {.depth = 3, .width = 1, .height = 2},
+    {.depth = 1, .width = 1, .height = 2},
+    {.depth = 2, .width = 5, .height = 5},
+    {.depth = 3, .width = 0, .height = 0},
     {.depth = 4, .width = 0, .height = 0},
     {.depth = 5, .width = 0, .height = 0},
-    {.depth = 6, .width = 0, .height = 0},
+    {.depth = 6, .width = 1, .height = 2},
     {.depth = 7, .width = 0, .height = 0},
     {.depth = 8, .width = 0, .height = 0},
     {.depth = 9, .width = 0, .height = 0},
-    {.first_color = 10, .color_count = 5, .depth = 15, .width = 1, .height = 2},
-    {.first_color = 16, .color_count = 1, .depth = 17, .width = 1, .height = 2},
-    {.first_color = 18, .color_count = 1, .width = 1, .height = 2},
+    {.depth = 10, .width = 0, .height = 0},
+    {.depth = 11, .width = 0, .height = 0},
+    {.first_color = 12, .color_count = 5, .depth = 17, .width = 1, .height = 2},
+    {.first_color = 18, .color_count = 5, .depth = 23, .width = 1, .height = 2},
+    {.first_color = 24, .color_count = 1, .depth = 25, .width = 1, .height = 2},
+    {.first_color = 26, .color_count = 1, .depth = 27, .width = 1, .height = 2},
+    {.first_color = 28, .color_count = 1, .width = 1, .height = 2},
 };
 
 constexpr ShaderModule kShaders[] = {
     {.name = "passes/geometry/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_mesh_cull_comp},
-    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
     {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
+    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
+    {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
     {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
     {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
-    {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
     {.name = "passes/geometry/depth_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_props_vert},
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
@@ -1742,10 +1806,10 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/fog/fog_inject.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_inject_comp},
     {.name = "passes/fog/fog_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_light_comp},
     {.name = "passes/fog/fog_integrate.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_integrate_comp},
-    {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
-    {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
     {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
+    {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
+    {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "passes/geometry/gbuffer_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_props_vert},
     {.name = "passes/geometry/gbuffer_props.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_props_frag},
     {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
@@ -1767,8 +1831,8 @@ constexpr ShaderModule kShaders[] = {
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 4, 5, 6, 4, 4, 7, 4, 4, 8, 4, 4,
-    8, 9, 8, 10, 8, 11, 8, 12, 8, 8, 13, 14, 15, 16, 17, 18,
+    0, 1, 2, 3, 4, 5, 5, 5, 6, 5, 5, 7, 5, 5, 8, 5,
+    9, 8, 10, 8, 11, 8, 12, 8, 8, 8, 13, 14, 15, 16, 17, 18,
     19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 28, 29, 28, 30, 28, 31,
     28, 32, 32, 32, 32, 32, 33, 34,
 };
@@ -1818,48 +1882,48 @@ constexpr VertexAttribute kVertexAttributes[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "mesh_cull", .pass = pass::mesh_cull, .shader_count = 1},
-    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 1, .shader_count = 1},
-    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 2, .shader_count = 1,
+    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 1, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 3, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 4, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 5, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 6, .shader_count = 1,
+    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 2, .shader_count = 1},
+    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 3, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
-    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 7, .shader_count = 1,
+    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 4, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
+    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 5, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 6, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 7, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 8, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1,
      .first_vertex_attribute = 6, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 8, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
     {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 9, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 10, .shader_count = 1},
-    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 11, .shader_count = 1,
+    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 10, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 11, .shader_count = 1},
     {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 12, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 13, .shader_count = 1},
-    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 14, .shader_count = 1,
+    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 13, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 14, .shader_count = 1},
     {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 15, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 16, .shader_count = 1},
-    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 17, .shader_count = 1},
-    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 18, .shader_count = 1},
-    {.name = "froxel_fog.chain.inject", .pass = pass::froxel_fog_chain_inject, .first_shader = 19, .shader_count = 1},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 20, .shader_count = 1},
-    {.name = "froxel_fog.chain.light", .pass = pass::froxel_fog_chain_light, .first_shader = 21, .shader_count = 1},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 22, .shader_count = 1},
-    {.name = "froxel_fog.chain.integrate", .pass = pass::froxel_fog_chain_integrate, .first_shader = 23, .shader_count = 1},
+    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 16, .shader_count = 1},
+    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
+    {.name = "froxel_fog.chain.inject", .pass = pass::froxel_fog_chain_inject, .first_shader = 18, .shader_count = 1},
+    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
+    {.name = "froxel_fog.chain.light", .pass = pass::froxel_fog_chain_light, .first_shader = 20, .shader_count = 1},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 21, .shader_count = 1},
+    {.name = "froxel_fog.chain.integrate", .pass = pass::froxel_fog_chain_integrate, .first_shader = 22, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 23, .shader_count = 1},
     {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 24, .shader_count = 1},
     {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 25, .shader_count = 1},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 26, .shader_count = 1},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 27, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 28, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .blend_count = 5},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 28, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 29, .shader_count = 1},
     {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 30, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
@@ -1894,14 +1958,18 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
-    {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
+    {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[0]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[0]
@@ -1911,47 +1979,39 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[1]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[1]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[1]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
-    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[2]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
+    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[3]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[3]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // depth_range_first
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[4]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[4]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[4]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[4]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // depth_range_first
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[5]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[5]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
-     .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
+     .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.clusters.cull
     // froxel_fog.clusters.cull
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},
@@ -1962,9 +2022,9 @@ constexpr Binding kBindings[] = {
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.chain.inject
     // froxel_fog.chain.inject
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
@@ -1975,9 +2035,9 @@ constexpr Binding kBindings[] = {
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.inject
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.inject
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.chain.light
     // froxel_fog.chain.light
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
@@ -2000,9 +2060,9 @@ constexpr Binding kBindings[] = {
     {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.light
     {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.light
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color},
      .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
@@ -2014,6 +2074,10 @@ constexpr Binding kBindings[] = {
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.integrate
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.integrate
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[6]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::general},  // depth_range_down[6]
@@ -2021,15 +2085,6 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // zbin_build
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // light_occlusion
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only},  // light_occlusion
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // gbuffer_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // gbuffer_world
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // gbuffer_world
@@ -2039,6 +2094,15 @@ constexpr Binding kBindings[] = {
     {.binding = 5, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_surface_maps},
      .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
     {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // zbin_build
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // light_occlusion
+    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only},  // light_occlusion
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_props
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
@@ -2219,13 +2283,13 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "camera", .bytes = 528},
-    {.name = "fog", .bytes = 112},
-    {.name = "lamps", .bytes = 384},
+    {.name = "camera", .bytes = 528, .layout = 2927969200},
+    {.name = "fog", .bytes = 112, .layout = 3517107466},
+    {.name = "lamps", .bytes = 384, .layout = 2251160174},
 };
 
 constexpr Index kPassParams[] = {
-    0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 2, 2, 2, 2, 2, 0,
+    0, 0, 0, 2, 0, 0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 0,
     1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1,
     0, 1, 0, 0, 1, 0, 0,
 };
@@ -2267,10 +2331,17 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(std::move(*instance));
+  return Frame(plan(), std::move(*instance), options);
 }
 
-rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Frame(plan(), std::move(*instance), options);
+}
+
+rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
                          void* recorder) {
@@ -2298,17 +2369,17 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
   };
   inputs.params = params_rows;
   if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::cull_counts() {
-  const auto bytes = instance_.readback(resource::cull_counts);
+  const auto bytes = read_back(resource::cull_counts);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::tile_features() {
-  const auto bytes = instance_.readback(resource::tile_features);
+  const auto bytes = read_back(resource::tile_features);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }

@@ -142,7 +142,7 @@ Status write_texels(const Context& context, Sized& sized, const Binding& binding
     info.offset = bytes.offset;
     info.range = bytes.range;
     VkBufferView view = VK_NULL_HANDLE;
-    RG_TRY(check(context.vk().CreateBufferView(context.device.device, &info, nullptr, &view), "vkCreateBufferView",
+    RG_TRY(check(context.vk().CreateBufferView(context.device.device, &info, context.vk().allocator, &view), "vkCreateBufferView",
                  context.plan.resources[binding.ref.resource].name));
     sized.buffer_views.emplace_back(context.vk(), context.device.device, view);
     VkWriteDescriptorSet write = write_header(table.sets[phase], binding);
@@ -203,12 +203,15 @@ VkDeviceSize lay_out_params(const Context& context, Ring& ring) {
   return end;
 }
 
+constexpr VkDeviceSize kMostRingBytes = VkDeviceSize{1} << 30;  // of a frame; offsets have 32 bits
+
 VkDeviceSize lay_out_updates(Sized& sized, VkDeviceSize end) {
   constexpr VkDeviceSize kTexelAlignment = 16;  // of the largest texel or block that is copied
   for (const TransferRef& update : sized.updates) {
     TransferTable& transfer = sized.passes[update.pass].transfers[update.transfer];
-    transfer.upload_offset = static_cast<uint32_t>(round_up(end, kTexelAlignment));
-    end = transfer.upload_offset + transfer.upload_bytes;
+    end = round_up(end, kTexelAlignment);
+    transfer.upload_offset = static_cast<uint32_t>(end);
+    end = transfer.upload_bytes > kMostRingBytes - std::min(end, kMostRingBytes) ? kMostRingBytes + 1 : end + transfer.upload_bytes;
   }
   return end;
 }
@@ -249,6 +252,8 @@ void forget_replaced(const Sized& sized, SetTable& table) {
 Status create_ring(const Context& context, Sized& sized) {
   const VkDeviceSize used = lay_out_updates(sized, lay_out_params(context, sized.ring));
   if (used == 0) return Done{};
+  if (used > kMostRingBytes)
+    return Error{ErrorCode::unsupported, "graph `" + std::string(context.plan.name) + "`: updates and parameter blocks of a frame need more than 1 GiB"};
   sized.ring.section = round_up(used, std::max<VkDeviceSize>(context.device.limits.minUniformBufferOffsetAlignment, 256));
   constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   const VkDeviceSize bytes = sized.ring.section * context.frames_in_flight;

@@ -135,6 +135,7 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, co
   if (state.sized) state.retired.push_back({state.submitted, std::move(state.sized)});
   state.sized = std::move(*sized);
   state.imports_applied = false;
+  state.invalidated.clear();  // all of it is as declared, or another instance's
   state.sized_at = state.frame;
   if (!state.dump.recorded) state.dump = {};  // asked for at other extents
   return Done{};
@@ -205,8 +206,27 @@ Status mend(GraphInstance::State& state) {
   return Done{};
 }
 
+// A prologue for the resources that were invalidated and no other. It follows the frames before; the next frame follows it.
+Status run_invalidations(GraphInstance::State& state) {
+  if (state.invalidated.empty()) return Done{};
+  Sized& sized = *state.sized;
+  std::vector<bool> others(sized.carried.size(), true);
+  for (const Index resource : state.invalidated) others[resource] = false;
+  wait_at_entry(state, state.timelines, state.submitted);
+  sized.carried.swap(others);
+  sized.resets = true;
+  const Status submitted = submit_prologue(state, sized);
+  sized.resets = false;
+  sized.carried.swap(others);
+  RG_TRY(submitted);
+  for (const Index resource : state.invalidated) sized.kept[resource]->valid_since = state.frame;
+  state.invalidated.clear();
+  return Done{};
+}
+
 Status mend_and_execute(GraphInstance::State& state, const FrameInputs& inputs) {
   RG_TRY(mend(state));
+  RG_TRY(run_invalidations(state));
   if (state.own_commands.empty()) return execute_frame(state, inputs);
   if (!inputs.waits.empty() || !inputs.signals.empty())
     return Error{ErrorCode::invalid_argument, "who submits a frame's commands waits for semaphores and signals them there"};
@@ -310,6 +330,18 @@ const Plan& GraphInstance::plan() const { return state_->context.plan; }
 bool GraphInstance::history_valid(Index resource) const {
   const std::vector<std::shared_ptr<Kept>>& kept = state_->sized->kept;
   return resource < kept.size() && kept[resource] != nullptr && state_->frame > kept[resource]->valid_since;
+}
+
+Status GraphInstance::invalidate(Index resource) {
+  const Plan& plan = state_->context.plan;
+  if (resource >= plan.resources.size() || state_->sized->kept[resource] == nullptr)
+    return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "`: only history and persistent resources are invalidated" +
+                                                  (resource < plan.resources.size() ? "; `" + std::string(plan.resources[resource].name) + "` is neither" : "")};
+  if (plan.resources[resource].init != InitKind::clear)
+    return Error{ErrorCode::invalid_argument, "`" + std::string(plan.resources[resource].name) + "` declares no initial value to go back to"};
+  std::vector<Index>& list = state_->invalidated;
+  if (std::find(list.begin(), list.end(), resource) == list.end()) list.push_back(resource);
+  return Done{};
 }
 
 std::shared_ptr<TransientHeap> make_transient_heap() { return std::make_shared<TransientHeap>(); }

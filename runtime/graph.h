@@ -150,6 +150,10 @@ class GraphInstance {
   // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else `invalid_argument`.
   Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
   Status wait_idle();
+  // Before its next use `resource` is set to its declared initial value again, all copies of it: its contents became wrong, as after a cut of the camera or a
+  // change of the scene. On the GPU, between the frames before and the next one; the host waits for nothing but an earlier such reset. `invalid_argument` for
+  // what is neither history nor persistent, or declares no initial value. Any number of resources; once a frame is enough.
+  Status invalidate(Index resource);
   // Dynamic resolution: from the next frame on passes run over these extents, at most those of creation or resize; nothing is placed or made anew, images keep their
   // size and are used from their corner. Cost: O(passes), no allocation.
   Status set_active(std::span<const int64_t> extents);

@@ -268,6 +268,7 @@ struct Sized {
   std::vector<bool> carried;                // by Plan::resources: `kept` came with its contents
   const Plan* carried_from = nullptr;       // in whose state between frames; only while the prologue is recorded
   bool carried_only = false;                // the prologue has nothing else to do; likewise
+  bool resets = false;                      // the prologue resets what is not carried, which earlier frames have used; likewise
   std::vector<VkImage> images;              // of either owner
   std::vector<VkBuffer> buffers;
   std::vector<HostCopy> host_copies;  // by buffer; empty for those the host cannot see
@@ -409,6 +410,7 @@ struct GraphInstance::State {
   std::unique_ptr<Sized> sized;
   std::vector<Retired> retired;
   uint64_t frame = 0;
+  std::vector<Index> invalidated;            // to be reset before the next frame
   std::vector<SemaphoreUse> waits, signals;  // of the next frame, from use_semaphores; with room
   std::vector<OwnCommands> own_commands;     // of the next frame, from use_commands; with room
   FrameDone own_done;

@@ -173,6 +173,7 @@ struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, 
 
 constexpr VkDeviceSize kImageAlignment = 65536, kBufferAlignment = 256;
 constexpr uint32_t kImageSide = 16384;
+constexpr VkDeviceSize kMostMapped = VkDeviceSize{128} << 20;  // mapped memory is real
 
 uint64_t image_bytes(const VkImageCreateInfo& info) {
   const FormatInfo format = format_info(info.format);
@@ -218,6 +219,7 @@ VkResult VKAPI_CALL map_memory(VkDevice device, VkDeviceMemory memory, VkDeviceS
   const VkResult result = Null<TagMapMemory, PFN_vkMapMemory>::call(device, memory, offset, size, flags, data);
   if (result != VK_SUCCESS) return result;
   NullDevice& null = owner(device);
+  if (null.memory_bytes[memory] > kMostMapped) return VK_ERROR_MEMORY_MAP_FAILED;
   null.mapped[memory].resize(null.memory_bytes[memory]);
   *data = null.mapped[memory].data() + offset;
   return VK_SUCCESS;

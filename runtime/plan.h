@@ -84,6 +84,7 @@ struct Resource {
   bool mutable_format = false;
   Index bytes = kNone;                                 // Expr, buffers
   uint32_t stride = 0;                                 // bytes an element
+  uint32_t layout = 0;                                 // of an element: equal where fields have the same names, types and places
   uint32_t copies = 1;                                 // history n: n + 1; copy of age k at frame f is (f - k) mod copies
   InitKind init = InitKind::none;
   ClearValue init_value = {};
@@ -276,7 +277,12 @@ struct Sampler {
   Compare compare = Compare::never;
   float max_anisotropy = 0;
 };
-struct Params { std::string_view name = {}; uint32_t bytes = 0; Index pass = kNone; };  // a block in the per-frame ring, dynamic offset
+struct Params {  // a block in the per-frame ring, dynamic offset
+  std::string_view name = {};
+  uint32_t bytes = 0;
+  Index pass = kNone;
+  uint32_t layout = 0;  // as Resource::layout
+};
 
 enum class PassKind : uint8_t { raster, compute, transfer, host };
 enum class WorkKind : uint8_t {  // what the executor records for the pass, after rendering, pipeline and set are bound
@@ -317,6 +323,7 @@ struct Pass {
   Index first_binding = 0, binding_count = 0;
   Index first_params = 0, params_count = 0;  // dynamic offsets, in binding order: Plan::pass_params (indices of Plan::params)
   uint32_t push_bytes = 0, push_stages = 0;
+  uint32_t push_layout = 0;               // as Resource::layout, of the push constants
   Index engine_set = kNone;
   // Which of its pipelines the pass binds is chosen every frame: Plan::pipeline_choices[first_choice + s], s counting the combinations of the values of
   // its features (Plan::pass_features, indices of Plan::features), the first slowest. kNone there: the combination is excluded. No features: `pipeline`.

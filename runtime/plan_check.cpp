@@ -1,5 +1,7 @@
 #include "runtime/plan_check.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -24,6 +26,18 @@ void check_exprs(const Plan& plan, Checker& c) {
   }
 }
 
+void check_extents(const Plan& plan, Checker& c) {
+  constexpr int64_t kMost = int64_t{1} << 31;
+  for (size_t i = 0; i < plan.extents.size(); ++i) {
+    const Extent& extent = plan.extents[i];
+    c.that(extent.axes >= 1 && extent.axes <= 3, "extent", i, "axes");
+    for (int axis = 0; axis < 3; ++axis)
+      c.that(extent.minimum[axis] >= 0 && extent.minimum[axis] <= extent.initial[axis] && extent.initial[axis] <= extent.maximum[axis] &&
+                 extent.maximum[axis] <= kMost,
+             "extent", i, "initial, smallest and largest value");
+  }
+}
+
 void check_resource(const Resource& resource, size_t i, Checker& c) {
   c.that(resource.kind <= ResourceKind::buffer && resource.lifetime <= Lifetime::readback && resource.dimension <= Dimension::cube, "resource", i,
          "kind");
@@ -32,9 +46,9 @@ void check_resource(const Resource& resource, size_t i, Checker& c) {
   c.that(resource.lifetime != Lifetime::readback || resource.kind == ResourceKind::buffer, "resource", i, "only buffers are read back");
   c.that(resource.copies >= 1 && resource.copies <= 64, "resource", i, "copies");
   if (resource.kind != ResourceKind::image) return;
-  c.that(resource.mips >= 1 && resource.mips <= 16 && resource.layers >= 1, "resource", i, "mips or layers");
+  c.that(resource.mips >= 1 && resource.mips <= 16 && resource.layers >= 1 && resource.layers <= 65536, "resource", i, "mips or layers");
   c.that(resource.samples >= 1 && resource.samples <= 64 && (resource.samples & (resource.samples - 1)) == 0, "resource", i, "samples");
-  c.that(resource.format != Format::undefined && resource.aspects != 0, "resource", i, "format");
+  c.that(resource.format != Format::undefined && resource.aspects >= 1 && resource.aspects <= 7, "resource", i, "format");
 }
 
 void check_barriers(const Plan& plan, Checker& c) {
@@ -126,12 +140,16 @@ void check_binding(const Plan& plan, size_t i, Checker& c) {
   c.optional(binding.sampler, plan.samplers.size(), "binding", i, "sampler");
   c.bytes(binding.bytes, "binding", i);
   if (is_image_type(binding.type)) return c.ref(binding.ref, ResourceKind::image, "binding", i, "image");
+  const bool block = binding.type == DescriptorType::uniform_buffer_dynamic;
+  if (binding.type == DescriptorType::sampler || block) c.that(binding.ref.resource == kNone, "binding", i, "a resource that it does not show");
   if (binding.type == DescriptorType::sampler) return c.that(binding.sampler != kNone, "binding", i, "no sampler");
-  if (binding.type == DescriptorType::uniform_buffer_dynamic) return c.index(binding.params, plan.params.size(), "binding", i, "parameter block");
+  if (block) return c.index(binding.params, plan.params.size(), "binding", i, "parameter block");
+  c.that(binding.params == kNone, "binding", i, "a parameter block that is not dynamic");
   const bool texels = binding.type == DescriptorType::uniform_texel_buffer || binding.type == DescriptorType::storage_texel_buffer;
   c.that(texels || binding.type == DescriptorType::uniform_buffer || binding.type == DescriptorType::storage_buffer, "binding", i, "type");
   if (texels) c.that(binding.view_format != Format::undefined, "binding", i, "no format of its texels");
   c.ref(binding.ref, ResourceKind::buffer, "binding", i, "buffer");
+  if (c.ok() && texels) c.that(plan.resources[binding.ref.resource].lifetime != Lifetime::imported, "binding", i, "texels of an imported buffer");
 }
 
 void check_transfer(const Plan& plan, size_t i, Checker& c) {
@@ -164,6 +182,13 @@ void check_work(const Plan& plan, const Pass& pass, size_t i, Checker& c) {
     c.ref(work.counts, ResourceKind::buffer, "pass", i, "draw count");
   c.range(work.first_transfer, work.transfer_count, plan.transfers.size(), "pass", i, "transfers");
   if (work.kind == WorkKind::host) c.that(pass.host_slot < 65536, "pass", i, "host slot");
+  c.that(work.max_draws <= 1u << 22, "pass", i, "most draws");
+  c.that(pass.kind <= PassKind::host, "pass", i, "kind");
+  const bool draws = indirect_work(work.kind) ? work.kind != WorkKind::dispatch_indirect : work.kind == WorkKind::draw;
+  const bool dispatches = work.kind == WorkKind::dispatch || work.kind == WorkKind::dispatch_indirect;
+  c.that(!draws || pass.kind == PassKind::raster, "pass", i, "draws outside a raster pass");
+  c.that(!dispatches || pass.kind == PassKind::compute, "pass", i, "a dispatch outside a compute pass");
+  c.that(work.kind != WorkKind::transfers || pass.kind == PassKind::transfer, "pass", i, "transfers outside a transfer pass");
 }
 
 uint32_t dynamic_bindings(const Plan& plan, const Pass& pass) {
@@ -179,6 +204,38 @@ uint64_t combinations(const Plan& plan, const Pass& pass) {
   for (const Index feature : plan.pass_features.subspan(pass.first_feature, pass.feature_count))
     product = std::min<uint64_t>(product * plan.features[feature].values, uint64_t{1} << 32);
   return product;
+}
+
+// Tables exist once for every combination of copies that a group or a pass can see: histories of many different lengths would multiply.
+constexpr uint64_t kLongestPeriod = 4096;
+
+class Period {
+ public:
+  explicit Period(const Plan& plan) : plan_(plan) {}
+  void add(Ref ref) {
+    if (ref.resource == kNone || plan_.resources[ref.resource].lifetime != Lifetime::history) return;
+    frames_ = std::min(std::lcm(frames_, uint64_t{plan_.resources[ref.resource].copies}), kLongestPeriod + 1);
+  }
+  bool bearable() const { return frames_ <= kLongestPeriod; }
+
+ private:
+  const Plan& plan_;
+  uint64_t frames_ = 1;
+};
+
+void check_periods(const Plan& plan, Checker& c) {
+  if (!c.ok()) return;
+  for (size_t i = 0; i < plan.groups.size(); ++i) {
+    Period period(plan);
+    for (const ImageBarrier& barrier : plan.image_barriers.subspan(plan.groups[i].first_image, plan.groups[i].image_count)) period.add(barrier.image);
+    for (const BufferBarrier& barrier : plan.buffer_barriers.subspan(plan.groups[i].first_buffer, plan.groups[i].buffer_count)) period.add(barrier.buffer);
+    c.that(period.bearable(), "group", i, "histories of too many different lengths");
+  }
+  for (size_t i = 0; i < plan.passes.size(); ++i) {
+    Period period(plan);
+    for (const Binding& binding : plan.bindings.subspan(plan.passes[i].first_binding, plan.passes[i].binding_count)) period.add(binding.ref);
+    c.that(period.bearable(), "pass", i, "histories of too many different lengths");
+  }
 }
 
 void check_features(const Plan& plan, Checker& c) {
@@ -216,6 +273,10 @@ void check_small_tables(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.engine_sets.size(); ++i)
     c.that(plan.engine_sets[i].role <= SetRole::draw && plan.engine_sets[i].role != SetRole::pass, "engine set", i, "role");
   c.that(plan.conditions.size() <= 64, "plan", 0, "more than 64 conditions");
+  for (size_t i = 0; i < plan.params.size(); ++i) {
+    c.that(plan.params[i].bytes <= 1u << 20, "parameter block", i, "more than 1 MiB");
+    c.optional(plan.params[i].pass, plan.passes.size(), "parameter block", i, "pass");
+  }
 }
 
 }  // namespace
@@ -226,6 +287,7 @@ Status check_plan(const Plan& plan) {
                                               "; this runtime runs version " + std::to_string(kPlanVersion)};
   Checker checker(plan);
   check_exprs(plan, checker);
+  check_extents(plan, checker);
   for (size_t i = 0; i < plan.resources.size(); ++i) check_resource(plan.resources[i], i, checker);
   check_barriers(plan, checker);
   check_aliases(plan, checker);
@@ -234,6 +296,7 @@ Status check_plan(const Plan& plan) {
   check_features(plan, checker);
   check_small_tables(plan, checker);
   for (size_t i = 0; i < plan.passes.size(); ++i) check_pass(plan, i, checker);
+  check_periods(plan, checker);
   plan_check::check_schedule(plan, checker);
   return checker.status();
 }

@@ -52,6 +52,7 @@ void prepare_clears(const Context& context, const Sized& sized, uint64_t frame, 
     if (!needs_clear(context, sized, boundary) || !is_image(context, boundary)) continue;
     const VkImageSubresourceRange range = image_range(context, sized, boundary.ref.resource, boundary.range);
     VkImageMemoryBarrier2& barrier = barriers.emplace_back(image_barrier(image_at(sized, {}, context.plan, boundary.ref, frame), range));
+    if (sized.resets) barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_CLEAR_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
@@ -194,9 +195,23 @@ bool record_entry(const Context& context, const Sized& sized, VkCommandBuffer co
   return true;
 }
 
+// What frames before have done to buffers that are filled again. Images have it in barriers of their own.
+void wait_for_users(const Context& context, VkCommandBuffer commands) {
+  VkMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.dstStageMask = kFillStages, barrier.dstAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.memoryBarrierCount = 1;
+  info.pMemoryBarriers = &barrier;
+  context.vk().CmdPipelineBarrier2(commands, &info);
+}
+
 }  // namespace
 
 bool record_prologue(const Context& context, const Sized& sized, VkCommandBuffer commands, uint64_t next_frame) {
+  if (sized.resets) wait_for_users(context, commands);
   prepare_clears(context, sized, next_frame, commands);
   clear_resources(context, sized, next_frame, commands);
   record_entry(context, sized, commands, next_frame, context.queues.families[0]);

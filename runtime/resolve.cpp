@@ -11,13 +11,46 @@ void evaluate_all(const Context& context, Sized& sized) {
   evaluate_again(context, sized);
 }
 
+namespace {
+
+// As evaluate() of plan.h where that is defined. A plan from a file may ask for more: sums and products then wrap, as unsigned numbers do, and the sizes
+// that come out are refused or clamped like any others.
+int64_t apply(ExprOp op, int64_t a, int64_t b) {
+  const auto x = static_cast<uint64_t>(a), y = static_cast<uint64_t>(b);
+  switch (op) {
+    case ExprOp::add:
+      return static_cast<int64_t>(x + y);
+    case ExprOp::sub:
+      return static_cast<int64_t>(x - y);
+    case ExprOp::mul:
+      return static_cast<int64_t>(x * y);
+    case ExprOp::floor_div:
+      return b <= 0 ? 0 : a / b;
+    case ExprOp::ceil_div:
+      return b <= 0 ? 0 : a / b + (a % b > 0 ? 1 : 0);
+    case ExprOp::min:
+      return std::min(a, b);
+    case ExprOp::max:
+      return std::max(a, b);
+    case ExprOp::mip:
+      return b < 0 || b > 62 ? 1 : std::max<int64_t>(a >> b, 1);
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
 void evaluate_again(const Context& context, Sized& sized) {
   sized.values.clear();
-  auto value_of = [&](Index operand) { return Expr{ExprOp::constant, kNone, kNone, operand == kNone ? 1 : sized.values[operand]}; };
+  const auto value_of = [&](Index operand) { return operand == kNone ? 1 : sized.values[operand]; };
   for (const Expr& expr : context.plan.exprs) {
-    const bool leaf = expr.op == ExprOp::constant || expr.op == ExprOp::extent;
-    const Expr nodes[] = {leaf ? Expr{} : value_of(expr.a), leaf ? Expr{} : value_of(expr.b), {expr.op, 0, 1, expr.value}};
-    sized.values.push_back(evaluate(nodes, 2, sized.extents));
+    if (expr.op == ExprOp::constant)
+      sized.values.push_back(expr.value);
+    else if (expr.op == ExprOp::extent)
+      sized.values.push_back(sized.extents[static_cast<size_t>(expr.value)]);
+    else
+      sized.values.push_back(apply(expr.op, value_of(expr.a), value_of(expr.b)));
   }
 }
 

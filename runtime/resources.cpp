@@ -12,6 +12,8 @@ namespace rg {
 
 namespace {
 
+constexpr VkDeviceSize kMostBytes = VkDeviceSize{1} << 40;  // of a buffer: what is larger comes from a wrapped expression
+
 uint32_t physical_copies(const Context& context, const Resource& resource) {
   switch (resource.lifetime) {
     case Lifetime::imported:
@@ -220,6 +222,8 @@ Status size_resources(const Context& context, Sized& sized) {
     else  // the smallest buffer that vkCmdFillBuffer can fill
       out.bytes = resource.bytes == kNone ? 0 : static_cast<VkDeviceSize>(std::max<int64_t>(evaluate(context, sized, resource.bytes), 4));
     sized.active.push_back(out.extent);
+    if (!is_image && out.bytes > kMostBytes)
+      return Error{ErrorCode::unsupported, "buffer `" + std::string(resource.name) + "`: " + std::to_string(out.bytes) + " bytes"};
     if (is_image && out.count != 0) RG_TRY(check_image_limits(context, resource, out));
   }
   return Done{};

@@ -7,6 +7,7 @@
 #include "runtime/functions.h"
 #include "runtime/graph.h"
 #include "runtime/math_types.h"
+#include "runtime/typed_frame.h"
 
 namespace rg {
 

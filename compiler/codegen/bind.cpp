@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "compiler/codegen/layout_number.h"
 #include "compiler/expressions.h"
 #include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
@@ -282,7 +283,7 @@ Index engine_set_index(const dsl::Program& program, const dsl::Pass& pass) {
 void bind_pass(Binder& b, Index index) {
   Pass& pass = b.plan.passes[index];
   pass.pipeline = pass.engine_set = kNone;
-  pass.first_binding = pass.binding_count = pass.first_params = pass.params_count = pass.push_bytes = pass.push_stages = 0;
+  pass.first_binding = pass.binding_count = pass.first_params = pass.params_count = pass.push_bytes = pass.push_stages = pass.push_layout = 0;
   pass.first_choice = pass.choice_count = pass.first_feature = pass.feature_count = 0;
   const uint32_t program_pass = b.plan.program_pass[index];
   // A clear in front of a pass may name that pass as its origin, but runs none of its shaders.
@@ -294,6 +295,7 @@ void bind_pass(Binder& b, Index index) {
   pass.engine_set = engine_set_index(b.program, source);
   if (!source.draw.per_draw.valid()) return;
   pass.push_bytes = b.program.structs[source.draw.per_draw].size430;
+  pass.push_layout = layout_of_struct(b.program, source.draw.per_draw);
   pass.push_stages = shaders.push_stages;
 }
 
@@ -328,9 +330,12 @@ void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId gr
   clear_tables(plan);
   Binder b{plan, program, graph, bundle, configuration, {}, {}};
   for (uint32_t i = 0; i < plan.program_resource.size(); ++i) b.plan_resource.emplace(plan.program_resource[i], i);
+  for (size_t i = 0; i < plan.resources.size(); ++i)
+    plan.resources[i].layout = layout_of_elements(program, graph.resources.rows[plan.program_resource[i]]);
   for (const dsl::Sampler& sampler : program.samplers) plan.samplers.push_back(convert(sampler));
   for (const dsl::EngineSet& set : program.engine_sets) plan.engine_sets.push_back({intern(set.name), set_role(set.set)});
-  for (const dsl::Params& params : graph.params) plan.params.push_back({intern(params.name), program.structs[params.type].size140, kNone});
+  for (const dsl::Params& params : graph.params)
+    plan.params.push_back({intern(params.name), program.structs[params.type].size140, kNone, layout_of_struct(program, params.type)});
   for (Index i = 0; i < plan.passes.size(); ++i) bind_pass(b, i);
   for (Index i = 0; i < plan.passes.size(); ++i)
     for (size_t p = 0; p < graph.params.size(); ++p)

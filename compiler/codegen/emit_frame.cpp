@@ -187,11 +187,15 @@ void record_function(CppWriter& out) {
 
 void frame_class(CppWriter& out, const FrameApi& api) {
   const std::string& name = api.class_name;
-  out.line("class " + name + " {");
+  out.line("class " + name + " : public rg::TypedFrame {");
   out.line(" public:");
   out.line("  static rg::Result<" + name + "> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});");
+  out.line("  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.");
+  out.line("  static rg::Result<" + name + "> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});");
   out.line("  // What depends on extents is placed anew; on failure the old state stays.");
   out.line("  rg::Status resize(const Extents& extents);");
+  out.line("  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.");
+  out.line("  rg::Status set_active(const Extents& extents);");
   out.line();
   execute(out, api);
   out.line();
@@ -201,13 +205,10 @@ void frame_class(CppWriter& out, const FrameApi& api) {
     out.line("  rg::Result<std::span<const " + readback.element + ">> " + readback.name + "();");
   }
   if (!api.readbacks.empty()) out.line();
-  out.line("  rg::GraphInstance& instance() { return instance_; }");
-  out.line();
   out.line(" private:");
   if (!api.passes.empty()) record_function(out);
   out.call("  rg::Status submit", parameters(api, {"const rg::RecordFunction* callbacks", "void* recorder"}), ";");
-  out.line("  explicit " + name + "(rg::GraphInstance instance) : instance_(std::move(instance)) {}");
-  out.line("  rg::GraphInstance instance_;");
+  out.line("  using TypedFrame::TypedFrame;");
   out.line("};");
 }
 
@@ -233,9 +234,15 @@ void create(CppWriter& out, const FrameApi& api) {
   out.line("  options.extents = values;");
   out.line("  auto instance = rg::GraphInstance::create(device, plan(), options);");
   out.line("  if (!instance) return instance.error();");
-  out.line("  return " + name + "(std::move(*instance));");
+  out.line("  return " + name + "(plan(), std::move(*instance), options);");
   out.line("}").line();
-  out.line("rg::Status " + name + "::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }").line();
+  out.line("rg::Result<" + name + "> " + name + "::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {");
+  out.line("  auto instance = succeed(current, plan(), options);");
+  out.line("  if (!instance) return instance.error();");
+  out.line("  return " + name + "(plan(), std::move(*instance), options);");
+  out.line("}").line();
+  out.line("rg::Status " + name + "::resize(const Extents& extents) { return resize_to(extent_values(extents)); }");
+  out.line("rg::Status " + name + "::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }").line();
 }
 
 void import_rows(CppWriter& out, const FrameApi& api) {
@@ -275,7 +282,7 @@ void submit(CppWriter& out, const FrameApi& api) {
   if (!api.features.empty()) feature_rows(out, api.features);
   for (size_t i = 0; i < api.condition_bits.size(); ++i)
     out.line("  if (conditions." + api.condition_bits[i] + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
-  out.line("  return instance_.execute(inputs);");
+  out.line("  return execute_inputs(inputs);");
   out.line("}");
 }
 
@@ -283,7 +290,7 @@ void readbacks(CppWriter& out, const FrameApi& api) {
   for (const ApiReadback& readback : api.readbacks) {
     out.line();
     out.line("rg::Result<std::span<const " + readback.element + ">> " + api.class_name + "::" + readback.name + "() {");
-    out.line("  const auto bytes = instance_.readback(resource::" + readback.resource + ");");
+    out.line("  const auto bytes = read_back(resource::" + readback.resource + ");");
     out.line("  if (!bytes) return bytes.error();");
     out.line("  return rg::elements_of<" + readback.element + ">(*bytes);");
     out.line("}");

@@ -141,7 +141,8 @@ void PlanEmitter::bindings() {
   table("Params", "kParams", plan_.params, [&](const Params& p, size_t) {
     Row row;
     row.string("name", p.name).number("bytes", p.bytes);
-    return p.pass != kNone ? row.field("pass", pass(p.pass)) : row;
+    if (p.pass != kNone) row.field("pass", pass(p.pass));
+    return row.number("layout", p.layout);
   });
   table("EngineSet", "kEngineSets", plan_.engine_sets, [](const EngineSet& s, size_t) {
     return Row().string("name", s.name).field("role", enum_text("SetRole", static_cast<size_t>(s.role), {"engine", "pass", "material", "draw"}));

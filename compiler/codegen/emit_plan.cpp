@@ -132,7 +132,7 @@ void PlanEmitter::resources() {
     if (r.aspects != 0) row.field("aspects", aspects_text(r.aspects));
     row.number("usage", r.usage).flag("mutable_format", r.mutable_format);
     index(row, "bytes", r.bytes);
-    row.number("stride", r.stride).number("copies", r.copies, 1);
+    row.number("stride", r.stride).number("layout", r.layout).number("copies", r.copies, 1);
     enumerator(row, "init", "InitKind", static_cast<size_t>(r.init), {"none", "clear"});
     row.nested("init_value", clear_value(r.init_value))
         .flag("is_surface", r.is_surface)
@@ -183,7 +183,7 @@ void PlanEmitter::passes() {
     index(row, "pipeline", p.pipeline);
     slice(row, "first_binding", p.first_binding, "binding_count", p.binding_count);
     slice(row, "first_params", p.first_params, "params_count", p.params_count);
-    row.number("push_bytes", p.push_bytes).number("push_stages", p.push_stages);
+    row.number("push_bytes", p.push_bytes).number("push_stages", p.push_stages).number("push_layout", p.push_layout);
     index(row, "engine_set", p.engine_set);
     slice(row, "first_choice", p.first_choice, "choice_count", p.choice_count);
     slice(row, "first_feature", p.first_feature, "feature_count", p.feature_count);

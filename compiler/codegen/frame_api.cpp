@@ -125,7 +125,13 @@ std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& nam
   for (size_t r = 0; r < s.plan.resources.size(); ++r) {
     if (s.plan.resources[r].lifetime != Lifetime::readback) continue;
     const dsl::Resource& source = s.graph.resources.rows[s.plan.program_resource[r]];
-    static const std::set<std::string> kMethods = {"create", "resize", "execute", "instance", "submit", "record"};
+    // Of the class and of rg::TypedFrame.
+    static const std::set<std::string> kMethods = {
+        "built_",     "continue_from", "create",           "create_successor", "execute",    "execute_inputs",  "frame",
+        "gone",       "history_valid", "instance",         "invalidate",       "memory",     "pass_info",       "pass_statistics",
+        "pass_times", "profile_json",  "read_back",        "reconfigure",      "record",     "reload",          "request_dump",
+        "resize",     "resize_to",     "running_plan",     "set_active",       "succeed",    "set_active_to",   "submit",
+        "take_dump",  "use_commands",  "use_semaphores",   "wait_idle"};
     const std::string method = names.resources[r] + (kMethods.contains(names.resources[r]) ? "_" : "");
     readbacks.push_back({method, names.resources[r], mirror_type(s.program, s.uses, source.element, false), s.where(source.span)});
   }

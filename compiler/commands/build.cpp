@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "compiler/codegen/plan_file.h"
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
 
@@ -65,6 +66,13 @@ int build_part(const BuildOptions& options) {
 
 }  // namespace
 
+bool write_plan_file(const std::string& path, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics) {
+  std::vector<Plan> plans;
+  for (const compiler::CompiledGraph& graph : result.graphs)
+    for (const compiler::FramePlan& frame : graph.plans) plans.push_back(frame.plan.view());
+  return write_file(path, compiler::emit_plan_file(plans), diagnostics);
+}
+
 int build(const BuildOptions& options) {
   if (!options.manifest.empty()) return write_manifest(options);
   if (options.compile.shards > 0) return build_part(options);
@@ -72,6 +80,7 @@ int build(const BuildOptions& options) {
   if (!result) return exit_input_wrong;
   dsl::Diagnostics diagnostics;
   const auto written = write_output(options.folder, result->files, diagnostics);
+  if (written && !options.plan_file.empty() && !write_plan_file(options.plan_file, *result, diagnostics)) return finish(diagnostics, result->sources);
   if (!written || !write_dependencies(options, *result, diagnostics)) return finish(diagnostics, result->sources);
   if (options.quiet) return exit_done;
   for (const std::string& name : written->changed) print(fmt::format("wrote   {}/{}\n", options.folder, name));

@@ -15,7 +15,12 @@ enum ExitCode { exit_done = 0, exit_input_wrong = 1, exit_call_wrong = 2, exit_o
 // ---- the commands: options as plain values, the exit code as the result -------------------------------------------------
 
 struct BuildOptions {
-  std::string file, folder = "generated", depfile, stamp, manifest;
+  std::string file, folder = "generated", depfile, stamp, manifest, plan_file;
+  bool quiet = false;
+  compiler::CompileOptions compile;
+};
+struct WatchOptions {
+  std::string file, plan_file, folder;  // of generated files; empty: none
   bool quiet = false;
   compiler::CompileOptions compile;
 };
@@ -67,6 +72,7 @@ struct EmitOptions {
   compiler::CompileOptions compile;
 };
 int build(const BuildOptions& options);
+int watch(const WatchOptions& options);
 int check(const CheckOptions& options);
 int format_files(const FmtOptions& options);
 int verify_file(const VerifyCommand& options);
@@ -89,6 +95,9 @@ void read_profile(compiler::CompileOptions& options, dsl::Diagnostics& diagnosti
 
 // compile() from disk with progress on a terminal; nullopt after printing what is wrong.
 std::optional<compiler::CompileResult> compile_or_report(const std::string& path, compiler::CompileOptions options);
+
+// The plans of all graphs as data, see compiler/codegen/plan_file.h; whole or not at all. False after reporting.
+bool write_plan_file(const std::string& path, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics);
 
 // Shows what is being worked on in one line of a terminal's stderr that the next call replaces; empty clears it. Does nothing elsewhere.
 void show_progress(std::string_view what);

@@ -130,12 +130,24 @@ void add_build(CLI::App& app, Run& run) {
   command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
   command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
       ->type_name("TEXT");
+  command->add_option("--plan-file", options.plan_file, "also write the plans as data, for programs that load them; see docs/runtime.md")->type_name("FILE");
   command->add_option("--manifest", options.manifest, "list the shader variants as jobs for other machines, as JSON, and build nothing")
       ->type_name("FILE");
   command->add_option("--shard", "build only the shaders of part I of N (I from 0) into the cache, and nothing else")
       ->type_name("I/N")
       ->check([&options](const std::string& text) { return read_shard(text, options.compile); });
   command->add_flag("-q,--quiet", options.quiet, "say nothing on success");
+  add_plan_options(*command.command, options.compile);
+}
+
+void add_watch(CLI::App& app, Run& run) {
+  Subcommand<WatchOptions> command(app, run, "watch", "compile a frame whenever it changes, for programs that reload its plan; until interrupted", watch);
+  WatchOptions& options = *command.options;
+  command->add_option("FILE", options.file, kRootFile)->required();
+  command->add_option("--plan-file", options.plan_file, "the file of plans that programs load; default: FILE with .rgplan")->type_name("FILE");
+  command->add_option("-o,--output", options.folder, "also keep the generated files in this folder up to date")->type_name("DIR");
+  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")->type_name("TEXT");
+  command->add_flag("-q,--quiet", options.quiet, "say only what is wrong");
   add_plan_options(*command.command, options.compile);
 }
 
@@ -255,7 +267,7 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", "rgc 0.1.0");
   app.footer("Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.");
   Run run;
-  for (auto* add : {add_build, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
+  for (auto* add : {add_build, add_watch, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
     add(app, run);
   if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
   try {

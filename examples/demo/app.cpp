@@ -13,6 +13,7 @@
 #include "examples/demo/renderer.h"
 #include "examples/demo/report.h"
 #include "examples/demo/spectrum.h"
+#include "examples/demo/watch.h"
 
 namespace rg::demo {
 namespace {
@@ -151,9 +152,16 @@ Status look_inside(Device& device, const Scene& scene, const DemoOptions& option
   return inspect(*renderer, options, draw);
 }
 
+Status watch_first_shot(Device& device, const Scene& scene, const DemoOptions& options, const Shot& shot) {
+  auto renderer = Renderer::create(device, scene, renderer_options(options));
+  if (!renderer) return renderer.error();
+  return watch(*renderer, options, [&] { return take(*renderer, scene, options, shot); });
+}
+
 Status render_all(Device& device, const Scene& scene, const DemoOptions& options) {
   auto shots = choose_shots(scene, options);
   if (!shots) return shots.error();
+  if (!options.watch.empty()) return watch_first_shot(device, scene, options, shots->front());
   auto renderer = Renderer::create(device, scene, renderer_options(options));
   if (!renderer) return renderer.error();
   std::vector<SpectrumScene> tiles;

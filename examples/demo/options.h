@@ -16,6 +16,8 @@ struct DemoOptions {
   std::string out = "out";
   std::vector<std::string> dumps;  // PASS.resource
   std::string trace, profile;      // files; empty: none
+  std::string watch;               // a plan file that may be replaced; empty: none
+  uint32_t reloads = 0;            // ends the watch after so many attempts; 0: never
   uint32_t threads = 1;
   bool serial = false, poison = false;
   std::string record_spectrum;     // a file for the feature masks of the tiles; empty: none

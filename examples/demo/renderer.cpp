@@ -184,7 +184,7 @@ Result<Renderer> Renderer::create(Device& device, const Scene& scene, const Rend
   auto graph = frame::Frame::create(device, extents_of(options.width, options.height), graph_options(options));
   if (!graph) return graph.error();
   state->graph.emplace(std::move(*graph));
-  auto pipeline = make_hologram_pipeline(device, state->graph->instance().pass_info(frame::pass::hologram));
+  auto pipeline = make_hologram_pipeline(device, state->graph->pass_info(frame::pass::hologram));
   if (!pipeline) return pipeline.error();
   state->hologram_pipeline = std::move(*pipeline);
   return Renderer(std::move(state));
@@ -194,15 +194,26 @@ Status Renderer::resize(uint32_t width, uint32_t height) {
   State& s = *state_;
   auto target = make_target(*s.device, width, height);
   if (!target) return target.error();
-  if (Status idle = s.graph->instance().wait_idle(); !idle) return idle;  // the old backbuffer is still drawn into
+  if (Status idle = s.graph->wait_idle(); !idle) return idle;  // the old backbuffer is still drawn into
   if (Status resized = s.graph->resize(extents_of(width, height)); !resized) return resized;
-  auto pipeline = make_hologram_pipeline(*s.device, s.graph->instance().pass_info(frame::pass::hologram));
+  auto pipeline = make_hologram_pipeline(*s.device, s.graph->pass_info(frame::pass::hologram));
   if (!pipeline) return pipeline.error();
   s.hologram_pipeline = std::move(*pipeline);
   s.backbuffer = std::move(target->backbuffer);
   s.readback = std::move(target->readback);
   s.options.width = width;
   s.options.height = height;
+  s.shadows.is_drawn = false;
+  return Done{};
+}
+
+Status Renderer::reload(const PlanFile& file) {
+  State& s = *state_;
+  if (Status idle = s.graph->wait_idle(); !idle) return idle;  // frames before use the old pipeline
+  if (Status reloaded = s.graph->reload(file); !reloaded) return reloaded;
+  auto pipeline = make_hologram_pipeline(*s.device, s.graph->pass_info(frame::pass::hologram));
+  if (!pipeline) return pipeline.error();
+  s.hologram_pipeline = std::move(*pipeline);
   s.shadows.is_drawn = false;
   return Done{};
 }
@@ -237,7 +248,7 @@ Status Renderer::render(const FrameData& data) {
 
 Result<Picture> Renderer::picture() {
   State& s = *state_;
-  if (Status idle = s.graph->instance().wait_idle(); !idle) return idle.error();
+  if (Status idle = s.graph->wait_idle(); !idle) return idle.error();
   const Status copied = submit_once(*s.device, [&](VkCommandBuffer commands) {
     copy_to_host(s.device->vk(), commands, s.backbuffer.image.get(), s.readback.buffer.get(), s.options.width, s.options.height);
   });

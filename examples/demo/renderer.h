@@ -36,6 +36,8 @@ class Renderer {
   ~Renderer();
 
   Status resize(uint32_t width, uint32_t height);
+  // The plan of the next frame. On failure the old one goes on, but for a pipeline that cannot be made for the new one: then nothing can be drawn.
+  Status reload(const PlanFile& file);
   // `data` must have been made for the current size.
   Status render(const FrameData& data);
   // Of the last frame; waits for it.

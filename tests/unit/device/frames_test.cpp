@@ -6,6 +6,7 @@ namespace rg {
 namespace {
 
 using Frames = test::DeviceTest;
+using test::TestPlan;
 
 void ignore(void*, Recording&) {}
 constexpr RecordFunction kIgnore[] = {ignore};
@@ -36,6 +37,83 @@ void count_up(Device& device, uint32_t frames_in_flight) {
 TEST_F(Frames, HistoryCarriesValuesOverFrames) {
   RG_OPEN_DEVICE(device, true);
   for (uint32_t frames_in_flight = 1; frames_in_flight <= 4; ++frames_in_flight) count_up(device, frames_in_flight);
+  EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
+}
+
+TEST_F(Frames, InvalidationStartsOneResourceAgain) {
+  RG_OPEN_DEVICE(device, true);
+  for (uint32_t frames_in_flight = 1; frames_in_flight <= 4; ++frames_in_flight) {
+    test::Counter t = test::counter();
+    GraphOptions options;
+    options.frames_in_flight = frames_in_flight;
+    Result<GraphInstance> graph = GraphInstance::create(device, t.plan.view(), options);
+    ASSERT_TRUE(graph) << graph.error().message;
+    const uint32_t step = 10;
+    const std::span<const std::byte> params[] = {bytes_of(step)};
+    FrameInputs inputs;
+    inputs.params = params;
+    uint32_t expected = 7;
+    for (uint32_t frame = 0; frame < 12; ++frame) {
+      if (frame % 5 == 3) {
+        RG_ASSERT_OK(graph->invalidate(t.state));
+        expected = 7;
+      }
+      RG_ASSERT_OK(graph->execute(inputs));
+      expected += step;
+      if (frame % 3 != 1) continue;
+      EXPECT_EQ(test::as<uint32_t>(*graph->readback(t.result)), std::vector<uint32_t>(64, expected)) << "frame " << frame;
+    }
+  }
+  EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
+}
+
+// `kept` is read into `result`, then overwritten where the condition holds.
+struct KeptImage {
+  TestPlan plan;
+  Index kept = 0, result = 0;
+};
+KeptImage kept_image() {
+  KeptImage t;
+  TestPlan& p = t.plan;
+  const Index side = p.constant(8);
+  t.kept = p.image("kept", test::kR32f, side, side, test::kCopySrc | test::kCopyDst);
+  p.resources[t.kept].lifetime = Lifetime::persistent, p.resources[t.kept].init = InitKind::clear;
+  p.resources[t.kept].init_value = {{0x3f800000, 0, 0, 0}};  // 1
+  t.result = p.buffer("result", p.constant(8 * 8 * 4), test::kCopyDst, Lifetime::readback);
+  p.conditions = {"overwrite"};
+  p.entry.push_back({{t.kept, 0}, {}, stage::clear, access::transfer_write, Layout::transfer_dst});
+  p.barriers({test::transition(t.kept, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
+  Transfer copy, clear;
+  copy.kind = TransferKind::copy_image_to_buffer, copy.src = {t.kept, 0}, copy.dst = {t.result, 0};
+  p.transfer("read", {copy},
+             {test::touches({t.kept, 0}, stage::copy, access::transfer_read, Layout::transfer_src, false),
+              test::touches({t.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  p.barriers({test::transition(t.kept, stage::copy, 0, Layout::transfer_src, stage::clear, access::transfer_write, Layout::transfer_dst)},
+             {test::to_host(t.result)});
+  clear.kind = TransferKind::clear_color, clear.dst = {t.kept, 0}, clear.value = {{0x40800000, 0, 0, 0}};  // 4
+  const Index overwrite = p.transfer("overwrite", {clear}, {test::touches({t.kept, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
+  p.passes[overwrite].guard = 1;
+  return t;
+}
+
+TEST_F(Frames, APersistentImageIsResetToItsDeclaredValue) {
+  RG_OPEN_DEVICE(device, true);
+  KeptImage t = kept_image();
+  Result<GraphInstance> graph = GraphInstance::create(device, t.plan.view(), {});
+  ASSERT_TRUE(graph) << graph.error().message;
+  const auto frame = [&](bool overwrite) {
+    FrameInputs inputs;
+    inputs.conditions = overwrite ? 1 : 0;
+    const Status done = graph->execute(inputs);
+    EXPECT_TRUE(done) << done.error().message;
+    return test::as<float>(*graph->readback(t.result));
+  };
+  EXPECT_EQ(frame(true), std::vector<float>(64, 1.0f));
+  EXPECT_EQ(frame(false), std::vector<float>(64, 4.0f));
+  RG_ASSERT_OK(graph->invalidate(t.kept));
+  EXPECT_EQ(frame(false), std::vector<float>(64, 1.0f));
+  EXPECT_EQ(frame(true), std::vector<float>(64, 1.0f));
+  EXPECT_EQ(frame(false), std::vector<float>(64, 4.0f));
   EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
 }
 

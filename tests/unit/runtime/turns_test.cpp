@@ -116,6 +116,46 @@ TEST_F(Turns, OwnCommandsGetTheFrameInParts) {
   device.vk().DestroyCommandPool(device.handle(), pool, nullptr);
 }
 
+TEST_F(Turns, OneResourceIsResetBetweenFrames) {
+  test::Counter t = test::counter();
+  GraphInstance graph = make(t.plan);
+  for (int i = 0; i < 3; ++i) frame(graph, inputs());
+  ASSERT_TRUE(graph.invalidate(t.state));
+  ASSERT_TRUE(graph.invalidate(t.state));  // once is enough
+  EXPECT_TRUE(graph.history_valid(t.state));
+  const std::string text = frame(graph, inputs());
+  EXPECT_FALSE(test::calls(frame(graph, inputs()), "vkCmdFillBuffer").size());  // the frame after is as usual
+  // Behind everything before, the copy that this frame reads gets its value again; the one it writes is left alone.
+  const std::vector<std::string> fills = test::calls(text, "vkCmdFillBuffer"), submits = test::calls(text, "vkQueueSubmit2");
+  ASSERT_EQ(fills.size(), 1u);
+  EXPECT_TRUE(fills[0].ends_with(" 7") || fills[0].find("0x7") != std::string::npos) << fills[0];
+  EXPECT_EQ(test::calls(text, "vkCmdPipelineBarrier2").at(0).substr(32), "[memory 0x10000/0x10000->0x900000000/0x1000]");
+  ASSERT_EQ(submits.size(), 2u);
+  EXPECT_NE(submits[0].find("wait semaphore1="), std::string::npos);
+  EXPECT_EQ(test::calls(text, "vkCreateBuffer").size() + test::calls(text, "vkAllocateMemory").size(), 0u);
+}
+
+TEST_F(Turns, HistoryIsInvalidUntilAFrameWroteAgain) {
+  test::Counter t = test::counter();
+  GraphInstance graph = make(t.plan);
+  frame(graph, inputs());
+  EXPECT_TRUE(graph.history_valid(t.state));
+  ASSERT_TRUE(graph.invalidate(t.state));
+  ASSERT_FALSE(graph.execute({}));  // no parameters: the reset has happened, the frame has not
+  EXPECT_FALSE(graph.history_valid(t.state));
+  frame(graph, inputs());
+  EXPECT_TRUE(graph.history_valid(t.state));
+}
+
+TEST_F(Turns, OnlyWhatDeclaresAValueIsReset) {
+  test::Counter t = test::counter();
+  t.plan.resources[t.state].init = InitKind::none;
+  GraphInstance graph = make(t.plan);
+  EXPECT_EQ(test::message(graph.invalidate(t.state)), "`state` declares no initial value to go back to");
+  EXPECT_EQ(test::message(graph.invalidate(t.result)), "graph `test`: only history and persistent resources are invalidated; `result` is neither");
+  EXPECT_EQ(test::message(graph.invalidate(99)), "graph `test`: only history and persistent resources are invalidated");
+}
+
 TEST_F(Turns, ActiveExtentsPlaceNothing) {
   test::Tint t = test::tint();
   GraphInstance graph = make(t.plan);

@@ -1,4 +1,4 @@
-// Dependencies run one way: dsl <- compiler <- rgc, runtime <- generated. Compiler and runtime share three headers, and the checker shares with the
+// Dependencies run one way: dsl <- compiler <- rgc, runtime <- generated. Compiler and runtime share four headers, and the checker shares with the
 // planner the plan's schema and nothing else.
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ std::string violations(const std::vector<File>& files, const Allowed& allowed) {
   return text;
 }
 
-bool is_shared(const std::string& include) { return is_any(include, {"runtime/plan.h", "runtime/packing.h", "runtime/alias.h"}); }
+bool is_shared(const std::string& include) { return is_any(include, {"runtime/plan.h", "runtime/plan_fields.h", "runtime/packing.h", "runtime/alias.h"}); }
 
 std::vector<File> compiler_files(bool verify) {
   std::vector<File> files = cpp_below("compiler");
@@ -49,7 +49,7 @@ TEST(Dependencies, DslKnowsOnlyItself) {
   EXPECT_EQ(violations(files, [](const std::string& include) { return include.starts_with("dsl/"); }), "");
 }
 
-TEST(Dependencies, CompilerSharesThreeHeadersWithTheRuntime) {
+TEST(Dependencies, CompilerSharesFourHeadersWithTheRuntime) {
   const auto files = compiler_files(false);
   ASSERT_GT(files.size(), 10u);
   EXPECT_EQ(violations(files, [](const std::string& include) { return starts_with_any(include, {"dsl/", "compiler/"}) || is_shared(include); }), "");

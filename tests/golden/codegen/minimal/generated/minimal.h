@@ -50,23 +50,24 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index waves = 1;
 }
 
-class Frame {
+class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<Frame> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports) {
     return submit(imports, nullptr, nullptr);
   }
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace minimal

@@ -172,10 +172,17 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(std::move(*instance));
+  return Frame(plan(), std::move(*instance), options);
 }
 
-rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Frame(plan(), std::move(*instance), options);
+}
+
+rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status Frame::submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
@@ -185,7 +192,7 @@ rg::Status Frame::submit(const Imports& imports, const rg::RecordFunction* callb
       {.image = imports.backbuffer.value},
   };
   inputs.imports = import_rows;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 }  // namespace minimal

@@ -162,11 +162,15 @@ inline constexpr rg::Index table = 6;
 inline constexpr rg::Index counted = 7;
 }
 
-class Frame {
+class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<Frame> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
@@ -182,8 +186,6 @@ class Frame {
   // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:30
   rg::Result<std::span<const uint32_t>> counted();
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   template <class R, class Pass, auto method>
   static void record(void* user, rg::Recording& recording) {
@@ -192,8 +194,7 @@ class Frame {
   }
   rg::Status submit(const Imports& imports, const Params& params, const EngineSets& engine_sets, const Updates& updates, const Conditions& conditions,
                     const rg::RecordFunction* callbacks, void* recorder);
-  explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace recorders

@@ -55,10 +55,10 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 13, .stride = 64, .import_slot = 0,
-     .estimated_bytes = 256, .line = 16, .file = "recorders.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 13, .stride = 64,
+     .layout = 204180734, .import_slot = 0, .estimated_bytes = 256, .line = 16, .file = "recorders.rg"},
     {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 15, .stride = 32,
-     .import_slot = 1, .estimated_bytes = 256, .line = 17, .file = "recorders.rg"},
+     .layout = 2628122430, .import_slot = 1, .estimated_bytes = 256, .line = 17, .file = "recorders.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 2, .estimated_bytes = 65536, .line = 24, .file = "recorders.rg"},
     {.name = "depth", .format = Format{126}, .width = 0, .height = 1, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 65536,
@@ -67,10 +67,10 @@ constexpr Resource kResources[] = {
      .init = InitKind::clear, .estimated_bytes = 65536, .line = 27, .file = "recorders.rg"},
     {.name = "bloom", .format = Format{97}, .width = 3, .height = 4, .mips = 3, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
      .estimated_alignment = 65536, .line = 28, .file = "recorders.rg"},
-    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 65536, .line = 29, .file = "recorders.rg"},
-    {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 18, .stride = 4, .estimated_bytes = 256,
-     .line = 30, .file = "recorders.rg"},
+    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 65536, .line = 29, .file = "recorders.rg"},
+    {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 18, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 256, .line = 30, .file = "recorders.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -120,10 +120,10 @@ constexpr Pass kPasses[] = {
     {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 1, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 68, .file = "recorders.rg"},
     {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 2, .access_count = 5, .rendering = 0, .pipeline = 0,
-     .binding_count = 3, .params_count = 1, .push_bytes = 32, .push_stages = 17, .engine_set = 0, .work = {.kind = WorkKind::host}, .host_slot = 0,
-     .line = 35, .file = "recorders.rg"},
+     .binding_count = 3, .params_count = 1, .push_bytes = 32, .push_stages = 17, .push_layout = 1658585901, .engine_set = 0,
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 35, .file = "recorders.rg"},
     {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 7, .access_count = 2, .rendering = 1, .push_bytes = 32,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 47, .file = "recorders.rg"},
+     .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 47, .file = "recorders.rg"},
     {.name = "count", .module = "recorders", .kind = PassKind::compute, .guard = 1, .first_access = 9, .access_count = 2, .pipeline = 1,
      .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 1, .z = 7}, .line = 68, .file = "recorders.rg"},
     {.name = "bloom_first", .module = "recorders", .kind = PassKind::compute, .first_access = 11, .access_count = 2, .pipeline = 2,
@@ -391,9 +391,9 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "view_constants", .bytes = 144},
-    {.name = "blur", .bytes = 16, .pass = pass::bloom_down_1},
-    {.name = "blur", .bytes = 16, .pass = pass::bloom_down_2},
+    {.name = "view_constants", .bytes = 144, .layout = 3386558067},
+    {.name = "blur", .bytes = 16, .pass = pass::bloom_down_1, .layout = 3397344801},
+    {.name = "blur", .bytes = 16, .pass = pass::bloom_down_2, .layout = 3397344801},
 };
 
 constexpr EngineSet kEngineSets[] = {
@@ -439,10 +439,17 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(std::move(*instance));
+  return Frame(plan(), std::move(*instance), options);
 }
 
-rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Frame(plan(), std::move(*instance), options);
+}
+
+rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status Frame::submit(const Imports& imports, const Params& params, const EngineSets& engine_sets, const Updates& updates,
                          const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder) {
@@ -470,11 +477,11 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Eng
   };
   inputs.updates = updates_rows;
   if (conditions.cached) inputs.conditions |= uint64_t{1} << 0;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::counted() {
-  const auto bytes = instance_.readback(resource::counted);
+  const auto bytes = read_back(resource::counted);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }

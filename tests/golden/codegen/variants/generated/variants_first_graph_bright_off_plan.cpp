@@ -172,10 +172,17 @@ rg::Result<First> First::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return First(std::move(*instance));
+  return First(plan(), std::move(*instance), options);
 }
 
-rg::Status First::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<First> First::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return First(plan(), std::move(*instance), options);
+}
+
+rg::Status First::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status First::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status First::submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
@@ -185,7 +192,7 @@ rg::Status First::submit(const Imports& imports, const rg::RecordFunction* callb
       {.image = imports.backbuffer.value},
   };
   inputs.imports = import_rows;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 }  // namespace variants::first_graph::bright_off
