@@ -17,6 +17,33 @@ extent view = runtime(640, 360) max(3840, 2160)
 
 graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene: Scene, surface backbuffer: rgba8 view after copy_src)
 {
+  // ---- what several passes take alike ---------------------------------------------------------------------------------
+  bundle world {  // vertices are pulled
+    read scene.instances as storage
+    read scene.vertices as storage
+    read scene.indices as storage
+  }
+  bundle props {
+    read scene.props as vertex
+    read scene.prop_indices as index
+    draw host { per_draw PropDraw  vertex PropVertex }
+  }
+  bundle surfaces {
+    read depth as sampled
+    read albedo as sampled
+    read normal as sampled
+    read material as sampled
+    read emissive as sampled
+  }
+  bundle shadow {
+    read sun_shadow as sampled
+    read lamp_shadow as sampled
+  }
+  bundle air {
+    read scattered as sampled(linear_clamp)
+    read transmittance as sampled(linear_clamp)
+  }
+
   // ---- meshes -----------------------------------------------------------------------------------------------------
   buffer world_draws : DrawArguments[MAX_INSTANCES]
   buffer sun_draws   : DrawArguments[MAX_INSTANCES]
@@ -39,9 +66,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/sun_world.vert"
     state  caster
     params camera
-    read   scene.instances as storage
-    read   scene.vertices as storage
-    read   scene.indices as storage
+    with   world
     depth  sun_shadow clear 0.0
     draw   indirect sun_draws max MAX_INSTANCES
   }
@@ -49,10 +74,8 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/sun_props.vert"
     state  caster
     params camera
-    read   scene.props as vertex
-    read   scene.prop_indices as index
+    with   props
     depth  sun_shadow
-    draw   host { per_draw PropDraw  vertex PropVertex }
   }
 
   // ---- lamp shadows: kept until a lamp or what it shines on moves ---------------------------------------------------
@@ -73,9 +96,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
         shader "passes/geometry/lamp_world.vert"
         state  caster
         params lamps
-        read   scene.instances as storage
-        read   scene.vertices as storage
-        read   scene.indices as storage
+        with   world
         depth  lamp_shadow.layer(slot) clear 0.0
         draw   indirect lamp_draws.bytes(slot * MAX_INSTANCES * 16, MAX_INSTANCES * 16) max MAX_INSTANCES
       }
@@ -95,9 +116,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/depth_world.vert"
     state  world_depth
     params camera
-    read   scene.instances as storage
-    read   scene.vertices as storage
-    read   scene.indices as storage
+    with   world
     depth  depth clear 0.0
     draw   indirect world_draws max MAX_INSTANCES
   }
@@ -105,10 +124,8 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/depth_props.vert"
     state  world_depth
     params camera
-    read   scene.props as vertex
-    read   scene.prop_indices as index
+    with   props
     depth  depth
-    draw   host { per_draw PropDraw  vertex PropVertex }
   }
 
   image depth_range : rg32f ceil(view / TILE) mips DEPTH_MIPS  // least and greatest depth; mip 0: one texel a light tile
@@ -192,9 +209,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/gbuffer_world.vert" "passes/geometry/gbuffer_world.frag"
     state  world_equal
     params camera
-    read   scene.instances as storage
-    read   scene.vertices as storage
-    read   scene.indices as storage
+    with   world
     read   scene.materials as storage
     read   scene.albedo_maps as sampled(surface_sampler)
     read   scene.surface_maps as sampled(surface_sampler)
@@ -210,15 +225,13 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/geometry/gbuffer_props.vert" "passes/geometry/gbuffer_props.frag"
     state  world_equal
     params camera
-    read   scene.props as vertex
-    read   scene.prop_indices as index
+    with   props
     color  albedo
     color  normal
     color  material
     color  emissive
     color  velocity
     depth  depth readonly
-    draw   host { per_draw PropDraw  vertex PropVertex }
   }
 
   // ---- shading ----------------------------------------------------------------------------------------------------
@@ -242,16 +255,10 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     read   tile_records as storage
     read   tile_lights as storage
     read   zbins as storage
-    read   depth as sampled
-    read   albedo as sampled
-    read   normal as sampled
-    read   material as sampled
-    read   emissive as sampled
+    with   surfaces
     read   occlusion as sampled(linear_clamp)
-    read   sun_shadow as sampled
-    read   lamp_shadow as sampled
-    read   scattered as sampled(linear_clamp)
-    read   transmittance as sampled(linear_clamp)
+    with   shadow
+    with   air
     write  hdr as storage
     dispatch over view
   }
@@ -260,18 +267,14 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     state  glass
     params camera
     params fog
-    read   scene.instances as storage
-    read   scene.vertices as storage
-    read   scene.indices as storage
+    with   world
     read   scene.materials as storage
     read   scene.lights as storage
     read   scene.albedo_maps as sampled(surface_sampler)
     read   forward_lights as storage
     read   zbins as storage
-    read   sun_shadow as sampled
-    read   lamp_shadow as sampled
-    read   scattered as sampled(linear_clamp)
-    read   transmittance as sampled(linear_clamp)
+    with   shadow
+    with   air
     color  hdr blend add(src_alpha, one_minus_src_alpha)
     depth  depth readonly
     draw   host { per_draw GlassDraw }
@@ -287,16 +290,11 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     shader "passes/debug/debug_view.comp" group 8 8 1
     params camera
     params fog
-    read   depth as sampled
-    read   albedo as sampled
-    read   normal as sampled
-    read   material as sampled
-    read   emissive as sampled
+    with   surfaces
     read   velocity as sampled
     read   occlusion as sampled(linear_clamp)
     read   hdr as sampled
-    read   scattered as sampled(linear_clamp)
-    read   transmittance as sampled(linear_clamp)
+    with   air
     read   tile_records as storage
     read   tile_features as storage
     read   tile_lights as storage

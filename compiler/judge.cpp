@@ -53,7 +53,12 @@ bool has(const Rows& rows, const std::string& name) {
 bool names_exist(const dsl::Graph& graph, const Assertion& assertion, dsl::Diagnostics& diagnostics) {
   for (const std::string& name : assertion.arguments) {
     if (has(graph.passes, name) || has(graph.resources, name)) continue;
-    diagnostics.report(DiagnosticKind::AssertionUnknownName, assertion.span, {name, graph.name});
+    dsl::Diagnostic& error = diagnostics.report(DiagnosticKind::AssertionUnknownName, assertion.span, {name, graph.name});
+    std::vector<std::string_view> known;
+    for (const dsl::Pass& pass : graph.passes) known.push_back(pass.name);
+    for (const dsl::Resource& resource : graph.resources) known.push_back(resource.name);
+    const std::string guess = dsl::closest(name, known);
+    if (!guess.empty()) error.note(DiagnosticKind::DidYouMean, assertion.span, {guess});
     return false;
   }
   return true;

@@ -254,6 +254,41 @@ Finding shaders(const Question& q) {
       });
 }
 
+// ---- counters of shaders
+
+// Of the shaders of the passes asked for, or of all, the one that has most; a shader that several passes share counts for the first.
+template <uint32_t ShaderStatistics::*Count>
+Finding counter(const Question& q) {
+  const auto each = [&](const FramePlan& frame, auto visit) {
+    const PlanData& plan = frame.plan;
+    std::vector<bool> seen(plan.shaders.size());
+    for (const Pipeline& pipeline : plan.pipelines) {
+      if (!q.assertion.arguments.empty() && !named(plan.passes[pipeline.pass].name, q.assertion.arguments[0])) continue;
+      for (Index i = pipeline.first_shader; i < pipeline.first_shader + pipeline.shader_count; ++i) {
+        const Index shader = plan.pipeline_shaders[i];
+        if (seen[shader]) continue;
+        seen[shader] = true;
+        const auto& words = plan.shaders[shader].words;
+        visit(pipeline.pass, plan.shaders[shader], find_statistics({words.begin(), words.end()}).*Count);
+      }
+    }
+  };
+  const auto most = [&](const FramePlan& frame, const PlanFigures&) {
+    uint32_t highest = 0;
+    each(frame, [&](Index, const ShaderModule&, uint32_t count) { highest = std::max(highest, count); });
+    return highest;
+  };
+  return worst(q, most, [&](const FramePlan& frame, const PlanFigures&) {
+    std::vector<Weighed> all;
+    each(frame, [&](Index pass, const ShaderModule& shader, uint32_t count) {
+      all.push_back({count,
+                     {"`" + std::string(shader.name) + "` of `" + std::string(frame.plan.passes[pass].name) + "`", std::to_string(count),
+                      pass_span(q, frame.plan, pass)}});
+    });
+    return greatest(std::move(all));
+  });
+}
+
 // Features multiply plans; those with most values first.
 Finding variants(const Question& q) {
   Finding finding;
@@ -330,10 +365,15 @@ std::vector<Contributor> between(const Question& q, const FramePlan& frame, cons
   });
 }
 
+// `on two_queues`: each runs on a queue of its own.
 Finding overlaps(const Question& q) {
+  const std::string on = q.assertion.fact.substr(std::string("overlaps").size());
   return every_pair(
-      q, find_passes, "separated by a barrier",
-      [](const PlanFigures& figures, uint32_t a, uint32_t b) { return overlap(figures.passes[a], figures.passes[b]); },
+      q, find_passes, on.empty() ? "separated by a barrier" : "separated by a barrier, or on other queues",
+      [&](const PlanFigures& figures, uint32_t a, uint32_t b) {
+        const bool one_queue = figures.passes[a].queue == figures.passes[b].queue;
+        return overlap(figures.passes[a], figures.passes[b]) && (on.empty() || one_queue == (on == " on one_queue"));
+      },
       [&](const FramePlan& frame, const PlanFigures& figures, uint32_t a, uint32_t b) { return between(q, frame, figures, a, b); });
 }
 
@@ -422,9 +462,20 @@ const std::vector<Fact>& known_facts() {
       {"culled", "", 0, 0, true, culled},
       {"shaders", "", 0, 0, true, shaders},
       {"variants", "", 0, 0, true, variants},
+      {"instructions", "(PASS)", 0, 1, true, counter<&ShaderStatistics::instructions>},
+      {"alu", "(PASS)", 0, 1, true, counter<&ShaderStatistics::alu>},
+      {"samples", "(PASS)", 0, 1, true, counter<&ShaderStatistics::samples>},
+      {"loads", "(PASS)", 0, 1, true, counter<&ShaderStatistics::loads>},
+      {"stores", "(PASS)", 0, 1, true, counter<&ShaderStatistics::stores>},
+      {"atomics", "(PASS)", 0, 1, true, counter<&ShaderStatistics::atomics>},
+      {"branches", "(PASS)", 0, 1, true, counter<&ShaderStatistics::branches>},
+      {"shared_bytes", "(PASS)", 0, 1, true, counter<&ShaderStatistics::shared_bytes>},
+      {"live_scalars", "(PASS)", 0, 1, true, counter<&ShaderStatistics::live_scalars>},
       {"lifetime", "(RESOURCE)", 1, 1, true, lifetime},
       {"order", "(PASS, PASS)", 2, 2, false, order},
       {"overlaps", "(PASS, PASS)", 2, 2, false, overlaps},
+      {"overlaps on one_queue", "", 2, 2, false, overlaps},
+      {"overlaps on two_queues", "", 2, 2, false, overlaps},
       {"aliases", "(RESOURCE, RESOURCE)", 2, 2, false, aliases},
       {"live", "(PASS)", 1, 1, false, live},
       {"async", "(PASS)", 1, 1, false, async},

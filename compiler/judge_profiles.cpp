@@ -7,6 +7,7 @@
 
 #include "compiler/profiles.h"
 #include "dsl/format_table.h"
+#include "dsl/layout.h"
 
 namespace rg::compiler {
 namespace {
@@ -189,7 +190,7 @@ void judge_descriptors(Judge& at, const dsl::Pass& pass) {
                                     "maxPerStageDescriptorUniformBuffers"};
   for (const dsl::Access& access : pass.accesses) {
     const bool image = at.graph.resources[access.resource].kind == dsl::ResourceKind::image;
-    if (access.role == Role::sampled) ++counts[0];
+    if (access.role == Role::sampled || access.role == Role::input) ++counts[0];
     if (access.role == Role::storage) ++counts[image ? 1 : 2];
     if (access.role == Role::uniform) ++counts[3];
   }
@@ -199,11 +200,21 @@ void judge_descriptors(Judge& at, const dsl::Pass& pass) {
     keep_within(at, kNames[i], counts[i], std::string("the number of ") + kWhat[i] + " of " + quoted("pass", pass.name), pass.span);
 }
 
+void judge_scalar(Judge& at, dsl::StructId id) {
+  if (!id.valid() || !dsl::is_scalar(at.program.structs[id])) return;
+  const dsl::Struct& record = at.program.structs[id];
+  need(at, "scalarBlockLayout", quoted("struct", record.name), record.span, "without it, leave `scalar` out; std430 pads three-component vectors");
+}
+
 void judge_pass(Judge& at, const dsl::Pass& pass) {
+  judge_scalar(at, pass.draw.per_draw);
+  for (const dsl::ParamsId params : pass.params) judge_scalar(at, at.graph.params[params].type);
   for (const dsl::Access& access : pass.accesses) {
     if (access.role == Role::storage) judge_storage(at, pass, access);
     if (access.role == Role::sampled) judge_sampler(at, access);
     const dsl::Resource& resource = at.graph.resources[access.resource];
+    const bool block = access.role == Role::uniform || access.role == Role::storage;
+    if (block && resource.kind == dsl::ResourceKind::buffer) judge_scalar(at, resource.element.record);
     if (access.role == Role::uniform && resource.count.valid())
       keep_within(at, "maxUniformBufferRange", static_cast<double>(dsl::evaluate(at.program, resource.count, at.extents)) * resource.stride,
                   "the size in bytes of uniform " + quoted("buffer", resource.name), access.span);

@@ -92,6 +92,15 @@ PlanFigures find_figures(const PlanData& plan) {
   return figures;
 }
 
+std::vector<ShaderStatistics> find_shader_figures(const PlanData& plan) {
+  std::vector<ShaderStatistics> shaders, passes(plan.passes.size());
+  for (const ShaderModule& shader : plan.shaders) shaders.push_back(find_statistics({shader.words.begin(), shader.words.end()}));
+  for (const Pipeline& pipeline : plan.pipelines)
+    for (Index i = pipeline.first_shader; i < pipeline.first_shader + pipeline.shader_count; ++i)
+      passes[pipeline.pass] = greatest(passes[pipeline.pass], shaders[plan.pipeline_shaders[i]]);
+  return passes;
+}
+
 bool overlap(const PassFigures& a, const PassFigures& b) {
   if (a.queue == b.queue) return a.group == b.group;
   const auto waited = [](uint64_t before, uint32_t batch) { return batch >= 64 || (before >> batch & 1) != 0; };

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compiler/plan_data.h"
+#include "compiler/shaders/statistics.h"
 
 namespace rg::compiler {
 
@@ -26,6 +27,8 @@ struct PlanFigures {
   uint32_t barriers = 0, barrier_calls = 0;  // calls: groups with something in it
 };
 PlanFigures find_figures(const PlanData& plan);
+// By index of Plan::passes: each count's greatest over the shaders of the pass, all its variants. O(bytes of SPIR-V).
+std::vector<ShaderStatistics> find_shader_figures(const PlanData& plan);
 
 // No barrier separates the two, or they run on different queues and neither waits for the other.
 bool overlap(const PassFigures& a, const PassFigures& b);

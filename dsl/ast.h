@@ -101,6 +101,7 @@ struct FieldDeclaration {
 };
 struct StructDeclaration {
   Name name;
+  bool scalar = false;  // `struct Particle scalar { ... }`
   std::vector<FieldDeclaration> fields;
 };
 
@@ -167,7 +168,7 @@ struct Usage {
 struct ResourceDeclaration {
   bool is_buffer = false;
   Name name;
-  Boxed<Expr> index;  // `image pyramid[i]`
+  std::vector<Expr> index;  // `image pyramid[i]`, one for each pair of brackets
   Name format;        // images
   Boxed<Expr> size;   // images
   TypeName element;   // buffers
@@ -197,6 +198,7 @@ struct AccessStatement {
   Name rename;
   Expr target;
   Boxed<Usage> usage;
+  std::vector<Name> stages;  // of `in STAGES` where no role says them
   Boxed<Expr> clear;
   Boxed<BlendOption> blend;
   bool covers = false, disjoint = false, readonly = false;
@@ -244,7 +246,7 @@ struct ParamsStatement {
   Boxed<Expr> type;
   Span span;
 };
-struct WordStatement {  // state NAME, bind NAME, after PASS, keep
+struct WordStatement {  // state NAME, bind NAME, after PASS, with BUNDLE, keep
   Name word;
   Boxed<Expr> value;
   Span span;
@@ -261,9 +263,14 @@ struct SpectrumStatement {  // spectrum light_features by tile_features
 using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement,
                                WordStatement, FeaturesStatement, SpectrumStatement>;
 
+struct BundleDeclaration {  // `bundle world { read scene.instances as storage ... }`: statements that passes take with `with world`
+  Name name;
+  std::vector<Statement> statements;
+  bool has_error = false;
+};
 struct PassDeclaration {
   Name name;
-  Boxed<Expr> index;
+  std::vector<Expr> index;  // `pass shadow[lamp][face]`
   Name kind, queue;
   bool queue_may = false;
   std::vector<Statement> statements;
@@ -279,7 +286,7 @@ struct Assertion {
   std::vector<Expr> arguments;
   Name comparison;
   Boxed<Expr> value;
-  Name unit;
+  Name unit, on;  // on: `on two_queues`
   std::string_view text;
   Span span;
 };
@@ -301,14 +308,16 @@ struct IfHost {
   std::vector<Item> body;
   Span span;
 };
-struct Use {  // `use blur(hdr, inout color)`, `use left = blur(hdr)`
+struct Use {  // `use blur(hdr, inout color)`, `use left = blur(hdr)`, `use eye[i] = blur(hdr)`
   Name instance;
+  std::vector<Expr> index;       // of the instance
+  std::vector<Name> directions;  // of each argument: `in`, `out` or `inout` before it, or empty
   Expr technique;
   std::vector<Expr> arguments;
   Span span;
 };
 struct Item {
-  std::variant<ResourceDeclaration, PassDeclaration, For, When, IfHost, Use, Assertion> node;
+  std::variant<ResourceDeclaration, PassDeclaration, BundleDeclaration, For, When, IfHost, Use, Assertion> node;
 };
 struct Parameter {
   enum class Kind : uint8_t { params, surface, interface, image, buffer, constant } kind = Kind::interface;

@@ -194,6 +194,9 @@ void check_options(Builder& at) {
   refuse(at.node.covers && at.node.verb == Verb::read, "covers");
   refuse(at.node.disjoint && at.node.verb == Verb::read, "disjoint");
   refuse(at.node.usage && attachment, "as");
+  refuse(!at.node.stages.empty() && attachment, "in");
+  const bool twice = !at.node.stages.empty() && at.node.usage && !at.node.usage->stages.empty();
+  if (twice) fail(at, DiagnosticKind::RepeatedSetting, at.node.stages.front().span, {"in"});
   refuse(at.node.readonly && at.node.clear, "clear");
   if (attachment && at.out.pass.kind != PassKind::raster) fail(at, DiagnosticKind::AttachmentOutsideRaster, at.node.span, {word_of(at.node.verb)});
 }
@@ -294,7 +297,7 @@ std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScop
   read_clear(at);
   at.access.mode = mode_of(at);
   check_port(at, place);
-  if (statement.usage) at.access.stages = find_stages(checker, statement.usage->stages);
+  at.access.stages = find_stages(checker, statement.stages.empty() && statement.usage ? statement.usage->stages : statement.stages);
   if (!at.ok) return out.dropped = scope.incomplete = true, std::nullopt;
   return commit(out, std::move(at.access));
 }

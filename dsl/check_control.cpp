@@ -1,5 +1,6 @@
 // Graphs: items are walked twice, first for resources, then for passes, so that a pass may come before what it uses is declared.
 #include <algorithm>
+#include <tuple>
 
 #include "dsl/check_state.h"
 #include "dsl/print.h"
@@ -21,6 +22,11 @@ void walk(Walker at, const std::vector<ast::Item>& items);
 
 void visit(Walker at, const ast::ResourceDeclaration& node) {
   if (at.phase == Phase::resources) declare_resource(at.checker, at.scope, node);
+}
+
+void visit(Walker at, const ast::BundleDeclaration& node) {
+  if (at.phase != Phase::resources || node.name.empty()) return;
+  at.scope.bundles[at.scope.prefix + std::string(node.name.text)] = &node;
 }
 
 void visit(Walker at, const ast::PassDeclaration& node) {
@@ -163,15 +169,28 @@ bool bind_argument(Walker at, const ast::Parameter& parameter, const ast::Expr& 
   return value.has_value();
 }
 
+// `inout hdr` at the use says again what the parameter is declared to be.
+bool direction_fits(Walker at, const ast::Use& node, size_t i, const ast::Parameter& parameter) {
+  const ast::Name& said = node.directions[i];
+  constexpr const char* kWords[] = {"in", "out", "inout"};
+  const char* declared = kWords[static_cast<size_t>(parameter.direction)];
+  if (said.empty() || said.text == declared) return true;
+  at.checker.report(DiagnosticKind::OptionDoesNotFit, said.span, {std::string(said.text), std::string(parameter.name.text)})
+      .note(DiagnosticKind::DeclaredHere, parameter.span, {std::string(parameter.name.text)})
+      .fix(said.span, declared);
+  return false;
+}
+
 std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& node, const ast::GraphDeclaration& technique, uint32_t module) {
   if (node.arguments.size() != technique.parameters.size()) {
-    at.checker.report(DiagnosticKind::WrongArgumentCount, node.span, {spelled(node.technique), std::to_string(node.arguments.size())})
+    at.checker.report(DiagnosticKind::WrongArgumentCount, node.span, {spelled(node.technique), std::to_string(node.arguments.size()), counted(technique.parameters.size(), "argument")})
         .note(DiagnosticKind::DeclaredHere, technique.name.span, {std::string(technique.name.text)});
     return std::nullopt;
   }
   std::vector<Binding> bindings;
   for (size_t i = 0; i < node.arguments.size(); ++i) {
     Binding binding;
+    if (!direction_fits(at, node, i, technique.parameters[i])) return std::nullopt;
     if (!bind_argument(at, technique.parameters[i], node.arguments[i], binding, module)) return std::nullopt;
     bindings.push_back(std::move(binding));
   }
@@ -196,7 +215,7 @@ void walk_instance(Walker at, const Symbol& symbol, const ast::GraphDeclaration&
   const std::string prefix = at.scope.prefix;
   std::swap(at.scope.bindings, bindings);
   at.scope.module = symbol.module;
-  at.scope.prefix += instance + ".";
+  at.scope.prefix = instance + ".";
   ++at.scope.use_depth;
   walk(at, technique.body);
   check_ports(at, technique);
@@ -206,19 +225,20 @@ void walk_instance(Walker at, const Symbol& symbol, const ast::GraphDeclaration&
   std::swap(at.scope.bindings, bindings);
 }
 
-// What is wrong inside a technique may be so only for what this `use` gives it.
-void note_use(Walker at, size_t first, const ast::Use& node, const std::string& technique) {
-  if (first == at.checker.diagnostics.rows().size()) return;
-  Diagnostics noted;
-  for (size_t i = 0; i < at.checker.diagnostics.rows().size(); ++i) {
-    Diagnostic row = at.checker.diagnostics.rows()[i];
-    if (i >= first) row.note(DiagnosticKind::AccessUsedHere, node.span, {technique});
-    noted.report(std::move(row));
-  }
-  at.checker.diagnostics = std::move(noted);
+// Two instances of one name would declare everything twice.
+bool claim_instance(Walker at, const ast::Use& node, const std::string& instance) {
+  if (at.phase != Phase::resources) return true;
+  const auto [first, fresh] = at.scope.uses.emplace(instance, node.span);
+  if (fresh) return true;
+  const bool named = !node.instance.empty();
+  at.scope.incomplete = true;
+  at.scope.repeated_uses.insert(&node);
+  report_duplicate(at.checker, named ? node.instance : ast::Name{node.technique.text, node.technique.span}, first->second);
+  return false;
 }
 
 void visit(Walker at, const ast::Use& node) {
+  if (at.scope.repeated_uses.count(&node)) return;
   const auto id = find_symbol(at.checker, at.scope.module, node.technique, SymbolKind::technique);
   if (!id) return void(at.scope.incomplete = true);
   const Symbol symbol = at.checker.symbols[*id];
@@ -230,16 +250,14 @@ void visit(Walker at, const ast::Use& node) {
   if (!count_unrolled(at, 1, node.span)) return;
   auto bindings = bind_arguments(at, node, technique, symbol.module);
   if (!bindings || technique.has_error) return void(at.scope.incomplete = true);
-  const std::string instance(node.instance.empty() ? symbol.name.text : node.instance.text);
+  const auto instance = indexed_name(at.checker, at.scope, node.instance.empty() ? symbol.name : node.instance, node.index);
+  if (!instance) return void(at.scope.incomplete = true);
+  if (!claim_instance(at, node, *instance)) return;
+  if (!node.index.empty()) at.scope.instances[at.scope.prefix + std::string(node.instance.text)] = true;
   const size_t told = at.checker.diagnostics.rows().size();
-  walk_instance(at, symbol, technique, std::move(*bindings), instance);
-  note_use(at, told, node, std::string(symbol.name.text));
-}
-
-std::string argument_name(Walker at, const ast::Expr& expr) {
-  if (expr.kind != ast::ExprKind::index) return spelled(expr);
-  const auto index = evaluate_integer(at.checker, &at.scope, at.scope.module, expr.operands[1], 0, UINT32_MAX);
-  return spelled(expr.operands[0]) + "[" + std::to_string(index.value_or(0)) + "]";
+  walk_instance(at, symbol, technique, std::move(*bindings), *instance);
+  // What is wrong inside a technique may be so only for what this `use` gives it.
+  note_since(at.checker, told, node.span, std::string(symbol.name.text));
 }
 
 double unit_of(std::string_view unit) {
@@ -254,7 +272,7 @@ double unit_of(std::string_view unit) {
 
 void read_argument(Walker at, const ast::Expr& expr, Assertion& out) {
   const bool is_size = expr.kind == ast::ExprKind::dimensions || expr.kind == ast::ExprKind::list || expr.kind == ast::ExprKind::integer;
-  if (!is_size) return out.arguments.push_back(argument_name(at, expr));
+  if (!is_size) return out.arguments.push_back(evaluated_name(at.checker, at.scope, expr).value_or(spelled(expr)));
   const Value size = evaluate_expr(at.checker, &at.scope, at.scope.module, expr);
   for (uint8_t axis = 0; size.kind == Value::Kind::integer && axis < size.axes; ++axis) out.extent[axis] = size.at[axis].value;
 }
@@ -263,7 +281,7 @@ void visit(Walker at, const ast::Assertion& node) {
   if (at.phase != Phase::passes || node.fact.empty()) return;
   Assertion assertion;
   assertion.is_error = node.is_error;
-  assertion.fact = std::string(node.fact.text);
+  assertion.fact = std::string(node.fact.text) + (node.on.empty() ? "" : " on " + std::string(node.on.text));
   assertion.comparison = std::string(node.comparison.text);
   assertion.text = std::string(node.text);
   assertion.span = node.span;
@@ -285,14 +303,37 @@ void finish_graph(Checker& checker, GraphScope& scope) {
     if (other.name == scope.graph.name) return;
   if (!scope.incomplete) {
     carry_forward(scope.graph, find_carried(checker, scope.graph));
-    check_definitions(checker, scope.graph);
+    check_definitions(checker, scope.graph, scope.told);
     check_unused(checker, scope);
     check_block_layouts(checker, scope.graph);
   }
   checker.program.graphs.add(std::move(scope.graph));
 }
 
+// Of kind and place among the rows from `first` on: a loop's body is wrong once.
+void drop_repeats(Checker& checker, size_t first) {
+  if (first == checker.diagnostics.rows().size()) return;
+  Diagnostics kept;
+  std::set<std::tuple<DiagnosticKind, uint32_t, uint32_t, uint32_t>> seen;
+  for (size_t i = 0; i < checker.diagnostics.rows().size(); ++i) {
+    const Diagnostic& row = checker.diagnostics.rows()[i];
+    if (i < first || seen.emplace(row.kind, row.span.file.value, row.span.begin, row.span.end).second) kept.report(row);
+  }
+  checker.diagnostics = std::move(kept);
+}
+
 }  // namespace
+
+void note_since(Checker& checker, size_t first, Span span, const std::string& name) {
+  if (first == checker.diagnostics.rows().size()) return;
+  Diagnostics noted;
+  for (size_t i = 0; i < checker.diagnostics.rows().size(); ++i) {
+    Diagnostic row = checker.diagnostics.rows()[i];
+    if (i >= first) row.note(DiagnosticKind::AccessUsedHere, span, {name});
+    noted.report(std::move(row));
+  }
+  checker.diagnostics = std::move(noted);
+}
 
 void check_graph(Checker& checker, uint32_t symbol) {
   const auto& node = std::get<ast::GraphDeclaration>(*checker.symbols[symbol].declaration);
@@ -301,11 +342,13 @@ void check_graph(Checker& checker, uint32_t symbol) {
   scope.graph.name = std::string(node.name.text);
   scope.graph.span = node.name.span;
   scope.incomplete = node.has_error || checker.lost_names;
+  const size_t told = checker.diagnostics.rows().size();
   declare_parameters(checker, scope, node);
   walk({checker, scope, Phase::resources}, node.body);
   scope.unrolled = 0;
   walk({checker, scope, Phase::passes}, node.body);
   finish_graph(checker, scope);
+  drop_repeats(checker, told);
 }
 
 }  // namespace rg::dsl

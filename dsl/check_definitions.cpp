@@ -335,8 +335,9 @@ std::vector<ResourceId> find_carried(Checker& checker, const Graph& graph) {
   return find_carried(walk);
 }
 
-void check_definitions(Checker& checker, const Graph& graph) {
+void check_definitions(Checker& checker, const Graph& graph, const std::set<uint32_t>& told) {
   Walk walk = start(checker, graph);
+  for (const uint32_t resource : told) walk.reported[resource] = true;
   for (uint32_t pass = 0; pass < graph.passes.size(); ++pass) {
     const Pass& row = graph.passes.rows[pass];
     const Fact fact = when(walk, row);

@@ -26,6 +26,47 @@ Named name_of(const ast::Declaration& declaration) {
   return result;
 }
 
+// Structs that stand in a `per_draw`, wherever in the items.
+void collect_in_place(const std::vector<ast::Item>& items, std::vector<const ast::StructDeclaration*>& found);
+
+void find_in_place(const ast::PassDeclaration& pass, std::vector<const ast::StructDeclaration*>& found) {
+  for (const ast::Statement& statement : pass.statements) {
+    const auto* draw = std::get_if<ast::DrawStatement>(&statement);
+    if (draw && draw->per_draw && draw->per_draw->declaration) found.push_back(&*draw->per_draw->declaration);
+  }
+}
+void find_in_place(const ast::For& node, std::vector<const ast::StructDeclaration*>& found) { collect_in_place(node.body, found); }
+void find_in_place(const ast::IfHost& node, std::vector<const ast::StructDeclaration*>& found) { collect_in_place(node.body, found); }
+void find_in_place(const ast::When& node, std::vector<const ast::StructDeclaration*>& found) {
+  collect_in_place(node.body, found);
+  collect_in_place(node.otherwise, found);
+}
+template <class Node>
+void find_in_place(const Node&, std::vector<const ast::StructDeclaration*>&) {}
+
+void collect_in_place(const std::vector<ast::Item>& items, std::vector<const ast::StructDeclaration*>& found) {
+  for (const ast::Item& item : items) std::visit([&](const auto& node) { find_in_place(node, found); }, item.node);
+}
+
+void add_in_place(Checker& checker, uint32_t module, const ast::GraphDeclaration& graph) {
+  std::vector<const ast::StructDeclaration*> found;
+  collect_in_place(graph.body, found);
+  for (const ast::StructDeclaration* record : found) {
+    if (record->name.empty()) continue;
+    const auto [at, fresh] = checker.own_names[module].emplace(record->name.text, static_cast<uint32_t>(checker.symbols.size()));
+    if (!fresh) {
+      report_duplicate(checker, record->name, checker.symbols[at->second].name.span);
+      continue;
+    }
+    Symbol symbol;
+    symbol.kind = SymbolKind::structure;
+    symbol.module = module;
+    symbol.record = record;
+    symbol.name = record->name;
+    checker.symbols.push_back(std::move(symbol));
+  }
+}
+
 void collect_own_names(Checker& checker, uint32_t module) {
   auto& names = checker.own_names[module];
   const ast::File& tree = checker.modules[module].tree;
@@ -46,6 +87,8 @@ void collect_own_names(Checker& checker, uint32_t module) {
     symbol.is_private = i < tree.private_words.size() && !tree.private_words[i].empty();
     checker.symbols.push_back(std::move(symbol));
   }
+  for (const ast::Declaration& declaration : tree.declarations)
+    if (const auto* graph = std::get_if<ast::GraphDeclaration>(&declaration)) add_in_place(checker, module, *graph);
 }
 
 std::vector<uint32_t> visible_modules(const Checker& checker, uint32_t module) {
@@ -73,10 +116,7 @@ void collect_scope(Checker& checker, uint32_t module) {
       if (!fresh && at->second.other == UINT32_MAX) at->second.other = symbol;
     }
   }
-  for (const auto& declaration : checker.modules[module].tree.declarations) {
-    const ast::Name name = name_of(declaration).name;
-    if (!name.empty()) scope[name.text] = {checker.own_names[module].at(name.text), UINT32_MAX};
-  }
+  for (const auto& [name, symbol] : checker.own_names[module]) scope[name] = {symbol, UINT32_MAX};
   checker.module_names[module].emplace(checker.modules[module].name, module);
 }
 
@@ -178,6 +218,8 @@ const char* describe(SymbolKind kind) {
                                     "feature",  "condition", "set",    "graph",     "technique", "spectrum"};
   return kNames[static_cast<size_t>(kind)];
 }
+
+std::string counted(size_t count, const char* noun) { return std::to_string(count) + " " + noun + (count == 1 ? "" : "s"); }
 
 std::string with_article(std::string_view noun) {
   const bool vowel = !noun.empty() && std::string_view("aeiou").find(noun[0]) != std::string_view::npos;

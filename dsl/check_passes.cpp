@@ -14,6 +14,7 @@ struct Builder {
   PassScope out;
   bool has_draw = false, has_dispatch = false, fullscreen = false;
   Span shader_span, draw_span;
+  std::vector<const ast::BundleDeclaration*> open = {};  // bundles that are being read
 };
 
 void fail(Builder& at, DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
@@ -152,8 +153,8 @@ void read_indirect_draw(Builder& at, const ast::DrawStatement& node) {
 
 void read_per_draw(Builder& at, const ast::PerDraw& node) {
   constexpr uint32_t kMaxPushBytes = 128;  // what every Vulkan device has
-  const StructId type =
-      node.declaration ? declare_struct(at.checker, at.scope.module, *node.declaration) : find_struct(at.checker, at.scope.module, *node.type);
+  const StructId type = node.declaration ? struct_in_place(at.checker, at.scope.module, *node.declaration)
+                                         : find_struct(at.checker, at.scope.module, *node.type);
   if (!type.valid()) return void(at.out.dropped = true);
   const Struct& record = at.checker.program.structs[type];
   const Span span = node.type ? node.type->span : node.name.span;
@@ -213,12 +214,9 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
 }
 
 void read_after(Builder& at, const ast::Expr& value) {
-  std::string name = at.scope.prefix + spelled(value);
-  if (value.kind == ast::ExprKind::index) {
-    const auto index = evaluate_integer(at.checker, &at.scope, at.scope.module, value.operands[1], 0, UINT32_MAX);
-    if (!index) return void(at.out.dropped = true);
-    name = at.scope.prefix + spelled(value.operands[0]) + "[" + std::to_string(*index) + "]";
-  }
+  const auto evaluated = evaluated_name(at.checker, at.scope, value);
+  if (!evaluated) return void(at.out.dropped = true);
+  const std::string name = at.scope.prefix + *evaluated;
   const auto found = at.scope.passes.find(name);
   if (found != at.scope.passes.end()) return at.out.pass.after.push_back(found->second);
   if (at.checker.lost_names || at.scope.failed.count("pass " + name)) return void(at.out.dropped = true);
@@ -239,11 +237,40 @@ void read_state(Builder& at, const ast::WordStatement& node) {
   at.out.pass.state = state_of(at.checker, *symbol);
 }
 
+void visit_all(Builder& at, const std::vector<ast::Statement>& statements);
+
+// `with world`: the statements of the bundle, as if they stood here.
+void read_bundle(Builder& at, const ast::Expr& value) {
+  const std::string name = spelled(value);
+  const auto found = at.scope.bundles.find(at.scope.prefix + name);
+  if (found == at.scope.bundles.end()) {
+    at.out.dropped = at.scope.incomplete = true;
+    if (at.checker.lost_names) return;
+    std::vector<std::string_view> candidates;
+    for (const auto& [known, bundle] : at.scope.bundles) candidates.push_back(bundle->name.text);
+    std::sort(candidates.begin(), candidates.end());
+    Diagnostic diagnostic(DiagnosticKind::UnknownName, value.span, {"bundle", name});
+    const std::string guess = closest(name, candidates);
+    if (!guess.empty()) diagnostic.fix(value.span, guess);
+    at.checker.diagnostics.report(std::move(diagnostic));
+    return;
+  }
+  const ast::BundleDeclaration* bundle = found->second;
+  if (std::find(at.open.begin(), at.open.end(), bundle) != at.open.end()) return fail(at, DiagnosticKind::NeedsItself, value.span, {name});
+  at.out.dropped |= bundle->has_error;
+  at.open.push_back(bundle);
+  const size_t told = at.checker.diagnostics.rows().size();
+  visit_all(at, bundle->statements);
+  note_since(at.checker, told, value.span, name);
+  at.open.pop_back();
+}
+
 void visit(Builder& at, const ast::WordStatement& node) {
   if (node.word.text == "keep") return void(at.out.pass.keep = true);
   if (!node.value || node.value->kind == ast::ExprKind::error) return void(at.out.dropped = true);
   if (node.word.text == "after") return read_after(at, *node.value);
   if (node.word.text == "state") return read_state(at, node);
+  if (node.word.text == "with") return read_bundle(at, *node.value);
   const auto symbol = find_symbol(at.checker, at.scope.module, *node.value, SymbolKind::set);
   if (!symbol) return void(at.out.dropped = true);
   at.out.pass.bind = std::string(at.checker.symbols[*symbol].name.text);
@@ -255,6 +282,10 @@ void visit(Builder& at, const ast::FeaturesStatement& node) {
 
 void visit(Builder& at, const ast::SpectrumStatement& node) {
   if (!add_spectrum(at.checker, at.scope, at.out, node)) at.out.dropped = at.scope.incomplete = true;
+}
+
+void visit_all(Builder& at, const std::vector<ast::Statement>& statements) {
+  for (const ast::Statement& statement : statements) std::visit([&](const auto& node) { visit(at, node); }, statement);
 }
 
 void read_heading(Builder& at) {
@@ -377,10 +408,17 @@ void add_passes(Builder& at) {
   add_pass(at, std::move(pass));
 }
 
+void note_told(Builder& at, size_t first) {
+  for (const auto& rows = at.checker.diagnostics.rows(); first < rows.size(); ++first)
+    for (const Access& access : at.out.pass.accesses)
+      if (access.span == rows[first].span) at.scope.told.insert(static_cast<uint32_t>(access.resource.value));
+}
+
 bool claim_name(Builder& at) {
   const auto existing = at.scope.passes.find(at.out.pass.name);
   if (existing == at.scope.passes.end()) return true;
   report_duplicate(at.checker, at.node.name, at.scope.graph.passes[existing->second].span);
+  at.scope.incomplete = true;
   return false;
 }
 
@@ -399,7 +437,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   if (!claim_name(at)) return;
   if (declaration.kind.empty()) return drop_pass(at);
   read_heading(at);
-  for (const ast::Statement& statement : declaration.statements) std::visit([&](const auto& node) { visit(at, node); }, statement);
+  visit_all(at, declaration.statements);
   at.out.dropped |= declaration.has_error;
   check_work(at);
   if (at.out.dropped) return drop_pass(at);
@@ -407,7 +445,9 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   settle_modes(at);
   settle_stages(at.out.pass);
   name_hidden_accesses(at.out.pass);
+  const size_t told = checker.diagnostics.rows().size();
   check_pass_rules(checker, scope.graph, at.out.pass);
+  note_told(at, told);
   if (!check_spectrum_pass(checker, scope.graph, at.out.pass)) return drop_pass(at);
   add_passes(at);
 }

@@ -33,9 +33,10 @@ Place whole(const GraphScope& scope, ResourceId id, Span span) {
   place.resource = id;
   place.span = span;
   std::string name = scope.graph.resources[id].name;
-  name.resize(std::min(name.size(), name.find('[')));
   const size_t dot = name.rfind('.');
-  place.default_name = dot == std::string::npos ? name : name.substr(dot + 1);
+  if (dot != std::string::npos) name.erase(0, dot + 1);
+  name.resize(std::min(name.size(), name.find('[')));
+  place.default_name = name;
   return place;
 }
 
@@ -106,8 +107,25 @@ Place fail(Walk walk, DiagnosticKind kind, Span span, std::vector<std::string> a
   return {};
 }
 
+const Expr& family_of(const Expr& expr) { return expr.kind == ExprKind::index ? family_of(expr.operands[0]) : expr; }
+
+// `[2][0]`
+std::optional<std::string> index_text(Checker& checker, GraphScope& scope, const Expr& expr) {
+  if (expr.kind != ExprKind::index) return std::string();
+  const auto outer = index_text(checker, scope, expr.operands[0]);
+  const auto index = outer ? evaluate_integer(checker, &scope, scope.module, expr.operands[1], 0, UINT32_MAX) : std::nullopt;
+  if (!index) return std::nullopt;
+  return *outer + "[" + std::to_string(*index) + "]";
+}
+
+// `2` for `[2]`; several stay as they are.
+std::string shown_index(const std::string& indices) {
+  const bool one = indices.find('[', 1) == std::string::npos;
+  return one ? indices.substr(1, indices.size() - 2) : indices;
+}
+
 Place find_indexed(Walk walk, const Expr& expr) {
-  const Expr& base = expr.operands[0];
+  const Expr& base = family_of(expr);
   if (base.kind != ExprKind::name) return fail(walk, DiagnosticKind::NotAPlace, expr.span, {});
   const std::string family = walk.scope.prefix + std::string(base.text);
   if (!walk.scope.families.count(family)) {
@@ -115,12 +133,12 @@ Place find_indexed(Walk walk, const Expr& expr) {
     if (plain.ok()) return fail(walk, DiagnosticKind::NotIndexed, expr.span, {std::string(base.text)});
     return {};
   }
-  const auto index = evaluate_integer(walk.checker, &walk.scope, walk.scope.module, expr.operands[1], 0, UINT32_MAX);
-  if (!index) return walk.scope.incomplete = true, Place{};
-  const std::string name = family + "[" + std::to_string(*index) + "]";
+  const auto indices = index_text(walk.checker, walk.scope, expr);
+  if (!indices) return walk.scope.incomplete = true, Place{};
+  const std::string name = family + *indices;
   if (const auto id = lookup(walk.scope, name)) return whole(walk.scope, *id, expr.span);
   if (walk.scope.failed.count(name)) return walk.scope.incomplete = true, Place{};
-  return fail(walk, DiagnosticKind::IndexNotDeclared, expr.span, {std::string(base.text), std::to_string(*index)});
+  return fail(walk, DiagnosticKind::IndexNotDeclared, expr.span, {std::string(base.text), shown_index(*indices)});
 }
 
 bool is_format_aspect(const Resource& resource, uint32_t aspect) { return (info(resource.format).aspects & aspect) != 0; }
@@ -136,11 +154,14 @@ Place take_aspect(Walk walk, const Expr& expr, Place place, uint32_t aspect) {
 
 Place member_place(Walk walk, const Expr& expr) {
   const Expr& owner = expr.operands[0];
-  if (owner.kind == ExprKind::name) {
-    const std::string name = walk.scope.prefix + std::string(owner.text);
+  const bool instance = owner.kind == ExprKind::index && walk.scope.instances.count(walk.scope.prefix + std::string(family_of(owner).text));
+  if (owner.kind == ExprKind::name || instance) {
+    const auto indices = index_text(walk.checker, walk.scope, owner);
+    if (!indices) return walk.scope.incomplete = true, Place{};
+    const std::string name = walk.scope.prefix + std::string(family_of(owner).text) + *indices;
     const std::string full = name + "." + std::string(expr.text);
     if (const auto id = lookup(walk.scope, full)) return whole(walk.scope, *id, expr.span);
-    if (walk.scope.interfaces.count(name)) {
+    if (walk.scope.interfaces.count(name) || instance) {
       report_unknown(walk, expr, full);
       return {};
     }
@@ -275,7 +296,7 @@ Place called_place(Walk walk, const Expr& call) {
   Place place = find_place(walk.checker, walk.scope, callee.operands[0]);
   if (!place.ok()) return place;
   if (call.operands.size() - 1 != part->arguments)
-    return fail(walk, DiagnosticKind::WrongArgumentCount, call.span, {std::string(part->name), std::to_string(call.operands.size() - 1)});
+    return fail(walk, DiagnosticKind::WrongArgumentCount, call.span, {std::string(part->name), std::to_string(call.operands.size() - 1), counted(part->arguments, "argument")});
   place.span = call.span;
   const Resource& resource = walk.scope.graph.resources[place.resource];
   const bool is_image = resource.kind == ResourceKind::image;
@@ -313,6 +334,15 @@ Value image_size(Checker& checker, const Resource& image, const Place& place) {
 }
 
 }  // namespace
+
+std::optional<std::string> evaluated_name(Checker& checker, GraphScope& scope, const ast::Expr& expr) {
+  if (expr.kind == ExprKind::member) {
+    const auto owner = evaluated_name(checker, scope, expr.operands[0]);
+    return owner ? std::optional(*owner + "." + std::string(expr.text)) : std::nullopt;
+  }
+  const auto indices = index_text(checker, scope, expr);
+  return indices ? std::optional(spelled(family_of(expr)) + *indices) : std::nullopt;
+}
 
 uint32_t mip_count(const Resource& resource, const Range& range) { return range.mips == kAll ? resource.mips - range.mip : range.mips; }
 uint32_t layer_count(const Resource& resource, const Range& range) { return range.layers == kAll ? resource.layers - range.layer : range.layers; }

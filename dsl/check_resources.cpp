@@ -137,10 +137,21 @@ void read_format(Builder& at) {
   at.ok = false;
 }
 
+// What a size comes to: known now, or at the initial and the maximal extents; the first that is out of bounds, if one is.
+std::optional<int64_t> beyond(Checker& checker, const Scalar64& size, int64_t most) {
+  const auto fits = [&](int64_t value) { return value >= 1 && value <= most; };
+  if (size.known()) return fits(size.value) ? std::nullopt : std::optional(size.value);
+  for (const auto& extents : {initial_extents(checker.program), maximum_extents(checker.program)}) {
+    const int64_t value = evaluate(checker.program, size.expr, extents);
+    if (!fits(value)) return value;
+  }
+  return std::nullopt;
+}
+
 bool check_axis(Builder& at, const Scalar64& axis) {
-  if (!axis.known() || (axis.value >= 1 && axis.value <= 65536)) return true;
-  fail(at, DiagnosticKind::ImageSize, at.node.size->span, {at.resource.name, std::to_string(axis.value)});
-  return false;
+  const auto wrong = beyond(at.checker, axis, 65536);
+  if (wrong) fail(at, DiagnosticKind::ImageSize, at.node.size->span, {at.resource.name, std::to_string(*wrong)});
+  return !wrong;
 }
 
 void set_dimension(Builder& at, uint8_t axes) {
@@ -212,8 +223,8 @@ void read_count(Builder& at) {
   const Value count = evaluate_expr(at.checker, &at.scope, at.scope.module, *type.count);
   if (!count.ok()) return void(at.ok = false);
   if (count.kind != Value::Kind::integer || count.axes != 1) return fail(at, DiagnosticKind::NotAnInteger, type.count->span);
-  if (count.at[0].known() && (count.at[0].value < 1 || count.at[0].value > UINT32_MAX))
-    return fail(at, DiagnosticKind::BufferSize, type.count->span, {at.resource.name, std::to_string(count.at[0].value)});
+  if (const auto wrong = beyond(at.checker, count.at[0], UINT32_MAX))
+    return fail(at, DiagnosticKind::BufferSize, type.count->span, {at.resource.name, std::to_string(*wrong)});
   at.resource.count = to_expr(at.checker, count.at[0]);
 }
 
@@ -394,18 +405,20 @@ uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words) {
   return stages;
 }
 
-std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const ast::Boxed<ast::Expr>& index) {
+std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::vector<ast::Expr>& indices) {
   std::string full = scope.prefix + std::string(name.text);
-  if (!index) return full;
-  const auto value = evaluate_integer(checker, &scope, scope.module, *index, 0, UINT32_MAX);
-  if (!value) return std::nullopt;
-  return full + "[" + std::to_string(*value) + "]";
+  for (const ast::Expr& index : indices) {
+    const auto value = evaluate_integer(checker, &scope, scope.module, index, 0, UINT32_MAX);
+    if (!value) return std::nullopt;
+    full += "[" + std::to_string(*value) + "]";
+  }
+  return full;
 }
 
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration) {
   if (declaration.name.empty()) return void(scope.incomplete = true);
   Builder at{checker, scope, declaration, {}, true};
-  if (declaration.index) scope.families[scope.prefix + std::string(declaration.name.text)] = true;
+  if (!declaration.index.empty()) scope.families[scope.prefix + std::string(declaration.name.text)] = true;
   const auto name = indexed_name(checker, scope, declaration.name, declaration.index);
   if (!name) return void(scope.incomplete = true);
   at.resource.name = *name;

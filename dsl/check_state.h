@@ -41,6 +41,7 @@ struct Symbol {
   SymbolKind kind = SymbolKind::constant;
   uint32_t module = 0;
   const ast::Declaration* declaration = nullptr;
+  const ast::StructDeclaration* record = nullptr;  // of a struct that stands in a `per_draw`
   ast::Name name;
   enum class Progress : uint8_t { open, running, done } progress = Progress::open;
   uint32_t id = UINT32_MAX;  // row of the program's table; none after an error
@@ -123,9 +124,14 @@ struct GraphScope {
   std::unordered_map<std::string, PassId> passes;
   std::unordered_map<std::string, ParamsId> params;
   std::unordered_map<std::string, bool> families;        // names declared with an index: `pyramid` of `pyramid[2]`
+  std::unordered_map<std::string, bool> instances;       // of techniques, named with an index
+  std::unordered_map<std::string, const ast::BundleDeclaration*> bundles;
+  std::unordered_map<std::string, Span> uses;  // instance -> where it is used
+  std::set<const ast::Use*> repeated_uses;     // of a name that is taken: reported, and passed over
   std::unordered_map<std::string, bool> failed;          // declared, but wrong: stay silent about them
   std::unordered_map<std::string, uint32_t> interfaces;  // parameter -> symbol
   std::vector<bool> resource_used;
+  std::set<uint32_t> told;  // resources about which a pass was told already: more about their contents would be one mistake twice
   uint32_t use_depth = 0;
   uint64_t unrolled = 0;
   bool incomplete = false;  // some access was dropped after an error: whole-graph facts would mislead
@@ -143,6 +149,7 @@ std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, con
 bool report_if_private(Checker& checker, uint32_t module, std::string_view name, Span span);
 std::string spelled(const ast::Expr& expr);
 std::string with_article(std::string_view noun);  // "an image"
+std::string counted(size_t count, const char* noun);  // "1 argument", "2 arguments"
 // Reports a repeated name with a note at the first.
 void report_duplicate(Checker& checker, const ast::Name& name, Span first);
 
@@ -165,7 +172,8 @@ ExtentId extent_of(Checker& checker, uint32_t symbol);
 // ---- check_types.cpp --------------------------------------------------------------------------------------------
 StructId struct_of(Checker& checker, uint32_t symbol);
 StructId find_struct(Checker& checker, uint32_t module, const ast::Expr& name);
-StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration);
+// Of a struct that stands in a `per_draw`; it has a name like any other.
+StructId struct_in_place(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration);
 // The element of `T`, `T[n]`, `T[]`; count is left to the caller.
 std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& type);
 
@@ -189,7 +197,8 @@ SpectrumId spectrum_of(Checker& checker, uint32_t symbol);
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
 void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDeclaration& graph);
 ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects);
-std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const ast::Boxed<ast::Expr>& index);
+// The full name with the values of its indices: `shadow[2][0]`.
+std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::vector<ast::Expr>& indices);
 std::optional<Role> find_role(std::string_view word);
 uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
 
@@ -197,6 +206,8 @@ uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words);
 // Whether `expr` begins with a name whose declaration was wrong: there is nothing more to say about it.
 bool is_failed(const Checker& checker, const GraphScope& scope, const ast::Expr& expr);
 Place find_place(Checker& checker, GraphScope& scope, const ast::Expr& expr);
+// `shadow[lamp][face]` with the values of its indices, as it is written otherwise.
+std::optional<std::string> evaluated_name(Checker& checker, GraphScope& scope, const ast::Expr& expr);
 // Reports a place that may not be written: an earlier frame's, or a technique's parameter without `inout`.
 bool check_writable(Checker& checker, GraphScope& scope, const Place& place, const ast::Expr& expr);
 // Silent probe: whether `expr` begins with the name of a resource.
@@ -227,13 +238,15 @@ bool is_written(Mode mode);
 
 // ---- check_control.cpp ------------------------------------------------------------------------------------------
 void check_graph(Checker& checker, uint32_t symbol);
+// What is wrong inside a technique or bundle may be so only for who uses it: a note on each row from `first` on.
+void note_since(Checker& checker, size_t first, Span span, const std::string& name);
 
 // ---- rules over the finished graph ------------------------------------------------------------------------------
 void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass);
 // Histories that some frame may not write, to be carried forward; reports those that nothing writes.
 std::vector<ResourceId> find_carried(Checker& checker, const Graph& graph);
 void carry_forward(Graph& graph, const std::vector<ResourceId>& histories);
-void check_definitions(Checker& checker, const Graph& graph);
+void check_definitions(Checker& checker, const Graph& graph, const std::set<uint32_t>& told);
 void check_unused(Checker& checker, const GraphScope& scope);
 void check_block_layouts(Checker& checker, const Graph& graph);
 

@@ -126,7 +126,8 @@ std::optional<uint32_t> value_index(Checker& checker, const ast::FeatureTerm& te
   if (found != feature.values.end()) return static_cast<uint32_t>(found - feature.values.begin());
   const std::vector<std::string_view> candidates(feature.values.begin(), feature.values.end());
   Diagnostic diagnostic(DiagnosticKind::UnknownName, term.value.span, {"value of feature `" + feature.name + "`", std::string(term.value.text)});
-  const std::string guess = closest(term.value.text, candidates);
+  const bool truth = is_bool(feature) && (term.value.text == "true" || term.value.text == "false");
+  const std::string guess = truth ? (term.value.text == "true" ? "on" : "off") : closest(term.value.text, candidates);
   if (!guess.empty()) diagnostic.fix(term.value.span, guess);
   diagnostic.note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
   checker.diagnostics.report(std::move(diagnostic));

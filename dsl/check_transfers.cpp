@@ -53,11 +53,11 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
   return false;
 }
 
-// In a raster pass the source is the colour attachment itself.
+// In a raster pass the source is the attachment itself.
 std::optional<uint32_t> find_attachment(Checker& checker, const GraphScope& scope, const PassScope& out, const Place& src) {
   const auto& accesses = out.pass.accesses;
   const auto at = std::find_if(accesses.begin(), accesses.end(),
-                               [&](const Access& access) { return access.resource == src.resource && access.role == Role::color; });
+                               [&](const Access& access) { return access.resource == src.resource && (access.role == Role::color || access.role == Role::depth); });
   if (at != accesses.end()) return static_cast<uint32_t>(at - accesses.begin());
   checker.report(DiagnosticKind::ResolveOfOther, src.span, {scope.graph.resources[src.resource].name, out.pass.name});
   return std::nullopt;

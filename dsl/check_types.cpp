@@ -73,6 +73,39 @@ bool read_fields(Checker& checker, uint32_t module, const ast::StructDeclaration
   return ok;
 }
 
+// A block has one layout, for all that it holds.
+bool nests_alike(Checker& checker, const Struct& record, bool scalar) {
+  for (const Field& field : record.fields) {
+    if (!field.type.record.valid()) continue;
+    const Struct& inner = checker.program.structs[field.type.record];
+    if (is_scalar(inner) == scalar) continue;
+    const Span span = scalar ? inner.span : record.span;
+    checker.report(DiagnosticKind::OptionDoesNotFit, field.span, {"scalar", scalar ? inner.name : record.name})
+        .note(DiagnosticKind::DeclaredHere, inner.span, {inner.name})
+        .fix({span.file, span.end, span.end}, " scalar");
+    return false;
+  }
+  return true;
+}
+
+StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration) {
+  Struct record;
+  record.name = std::string(declaration.name.text);
+  record.span = declaration.name.span;
+  if (declaration.name.empty() || !read_fields(checker, module, declaration, record)) return {};
+  if (record.fields.empty()) {
+    checker.report(DiagnosticKind::EmptyStruct, record.span, {record.name});
+    return {};
+  }
+  if (!nests_alike(checker, record, declaration.scalar)) return {};
+  if (!lay_out(checker.program.structs, record, declaration.scalar)) {
+    checker.report(DiagnosticKind::StructTooLarge, record.span, {record.name});
+    return {};
+  }
+  if (!claim_public_name(checker, declaration.name)) return {};
+  return checker.program.structs.add(std::move(record));
+}
+
 }  // namespace
 
 std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& node) {
@@ -100,21 +133,10 @@ StructId find_struct(Checker& checker, uint32_t module, const ast::Expr& name) {
   return symbol ? struct_of(checker, *symbol) : StructId{};
 }
 
-StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration) {
-  Struct record;
-  record.name = std::string(declaration.name.text);
-  record.span = declaration.name.span;
-  if (declaration.name.empty() || !read_fields(checker, module, declaration, record)) return {};
-  if (record.fields.empty()) {
-    checker.report(DiagnosticKind::EmptyStruct, record.span, {record.name});
-    return {};
-  }
-  if (!lay_out(checker.program.structs, record)) {
-    checker.report(DiagnosticKind::StructTooLarge, record.span, {record.name});
-    return {};
-  }
-  if (!claim_public_name(checker, declaration.name)) return {};
-  return checker.program.structs.add(std::move(record));
+StructId struct_in_place(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration) {
+  const auto at = checker.own_names[module].find(declaration.name.text);
+  if (at == checker.own_names[module].end() || checker.symbols[at->second].record != &declaration) return {};  // reported as declared twice
+  return struct_of(checker, at->second);
 }
 
 StructId struct_of(Checker& checker, uint32_t symbol) {
@@ -126,7 +148,8 @@ StructId struct_of(Checker& checker, uint32_t symbol) {
   }
   if (checker.symbols[symbol].progress == Symbol::Progress::open) {
     checker.symbols[symbol].progress = Symbol::Progress::running;
-    const auto& node = std::get<ast::StructDeclaration>(*checker.symbols[symbol].declaration);
+    const ast::StructDeclaration* in_place = checker.symbols[symbol].record;
+    const auto& node = in_place ? *in_place : std::get<ast::StructDeclaration>(*checker.symbols[symbol].declaration);
     checker.symbols[symbol].id = declare_struct(checker, checker.symbols[symbol].module, node).value;
     checker.symbols[symbol].progress = Symbol::Progress::done;
   }

@@ -132,20 +132,22 @@ Value dimensions(Evaluator& at, const ast::Expr& expr) {
   return value;
 }
 
-// `[w, h, d]` is a size if all parts are whole; `[0.0, 0.5, 1.0, 1.0]` is a list of numbers.
+// `[w, h, d]` is a size if all parts are whole, as is `[view, d]`; `[0.0, 0.5, 1.0, 1.0]` is a list of numbers.
 Value list(Evaluator& at, const ast::Expr& expr) {
   Value result = integer_value(0);
   std::vector<double> numbers;
-  bool whole = expr.operands.size() <= 3;
-  for (size_t i = 0; i < expr.operands.size(); ++i) {
-    const Value part = evaluate(at, expr.operands[i]);
+  bool whole = true;
+  size_t axes = 0;
+  for (const ast::Expr& operand : expr.operands) {
+    const Value part = evaluate(at, operand);
     if (!part.ok()) return part;
-    if (part.kind == Value::Kind::list || part.axes != 1) return wrong_operand(at, expr.operands[i], "a number");
-    whole = whole && part.kind == Value::Kind::integer;
+    if (part.kind == Value::Kind::list || (part.axes > 1 && axes + part.axes > 3)) return wrong_operand(at, operand, "a number");
+    whole = whole && part.kind == Value::Kind::integer && axes + part.axes <= 3;
     if (part.is_number()) numbers.push_back(part.real);
-    if (whole) result.at[i] = part.at[0];
+    for (uint8_t axis = 0; whole && axis < part.axes; ++axis) result.at[axes + axis] = part.at[axis];
+    axes += part.axes;
   }
-  result.axes = static_cast<uint8_t>(std::min<size_t>(expr.operands.size(), 3));
+  result.axes = static_cast<uint8_t>(std::min<size_t>(axes, 3));
   result.numbers = std::move(numbers);
   if (!whole) result.kind = Value::Kind::list;
   if (!whole && result.numbers.size() != expr.operands.size()) return wrong_operand(at, expr, "numbers known now");
@@ -257,7 +259,9 @@ Value call(Evaluator& at, const ast::Expr& expr) {
   if (name == "layers" && one) return count_of(at, expr, layer_count);
   constexpr std::string_view kFunctions[] = {"ceil", "floor", "min", "max", "mips", "layers"};
   if (std::find(std::begin(kFunctions), std::end(kFunctions), name) != std::end(kFunctions)) {
-    at.checker.report(DiagnosticKind::WrongArgumentCount, expr.span, {std::string(name), std::to_string(expr.operands.size() - 1)});
+    const bool open_ended = name == "min" || name == "max";
+    at.checker.report(DiagnosticKind::WrongArgumentCount, expr.span,
+                      {std::string(name), std::to_string(expr.operands.size() - 1), open_ended ? "2 arguments or more" : "1 argument"});
     return error_value();
   }
   if (at.scope && is_failed(at.checker, *at.scope, expr)) return error_value();

@@ -9,6 +9,15 @@ constexpr uint64_t kMaxBytes = uint64_t{1} << 31;
 
 uint64_t round_up(uint64_t value, uint64_t to) { return (value + to - 1) / to * to; }
 
+// Everything is aligned to its scalars, so nothing is padded.
+TypeLayout scalar_layout(const Table<StructId, Struct>& structs, const Type& type) {
+  TypeLayout result{4ull * type.rows * type.columns, 4, 0};
+  if (type.record.valid()) result.size = structs[type.record].size430;
+  result.stride = result.size;
+  if (type.count == 0) return result;
+  return {result.stride * type.count, 4, result.stride * type.count};
+}
+
 TypeLayout vector_layout(uint8_t rows) {
   const uint64_t size = 4ull * rows;
   return {size, rows == 3 ? 16 : size, 0};
@@ -43,6 +52,7 @@ bool place_field(const Table<StructId, Struct>& structs, const Type& type, Block
 }  // namespace
 
 TypeLayout layout_of(const Table<StructId, Struct>& structs, const Type& type, BlockLayout layout) {
+  if (layout == BlockLayout::scalar) return scalar_layout(structs, type);
   TypeLayout result = element_layout(structs, type, layout);
   const bool is140 = layout == BlockLayout::std140;
   const uint64_t align = is140 ? round_up(result.align, 16) : result.align;  // of an array's elements
@@ -60,8 +70,18 @@ uint64_t scalar_size(const Table<StructId, Struct>& structs, const Type& type) {
   return size * std::max<uint64_t>(type.count, 1);
 }
 
-bool lay_out(const Table<StructId, Struct>& structs, Struct& record) {
+bool lay_out(const Table<StructId, Struct>& structs, Struct& record, bool scalar) {
   Cursor at140, at430;
+  if (scalar) {
+    at430.align = 4;
+    for (Field& field : record.fields) {
+      if (!place_field(structs, field.type, BlockLayout::scalar, at430, field.offset430)) return false;
+      field.offset140 = field.offset430;
+    }
+    record.align140 = record.align430 = 4;
+    record.size140 = record.size430 = static_cast<uint32_t>(at430.offset);
+    return true;
+  }
   at140.align = 16;
   for (Field& field : record.fields) {
     if (!place_field(structs, field.type, BlockLayout::std140, at140, field.offset140)) return false;
@@ -75,6 +95,7 @@ bool lay_out(const Table<StructId, Struct>& structs, Struct& record) {
 }
 
 bool layouts_agree(const Table<StructId, Struct>& structs, const Struct& record) {
+  if (is_scalar(record)) return true;
   return std::all_of(record.fields.begin(), record.fields.end(), [&](const Field& field) {
     if (field.offset140 != field.offset430) return false;
     const bool same_stride = layout_of(structs, field.type, BlockLayout::std140).size == layout_of(structs, field.type, BlockLayout::std430).size;

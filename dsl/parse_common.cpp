@@ -10,10 +10,11 @@ using Words = std::initializer_list<std::string_view>;
 
 constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "private",   "const", "extent", "struct",    "interface",
                                               "sampler", "state",  "feature", "condition", "set",   "graph",  "technique", "spectrum"};
-constexpr std::string_view kItems[] = {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"};
+constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "assert", "warn"};
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
-                                            "clear",  "fill",   "host",   "after",    "keep",  "layout", "fullscreen", "features", "spectrum"};
+                                            "clear",  "fill",   "host",   "after",    "keep",  "layout", "fullscreen", "features", "spectrum",
+                                            "with"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {
@@ -122,6 +123,7 @@ ast::Name Parser::expect_one_of(const char* what, Words words) {
 // A brace where none belongs: what follows will not match either.
 void Parser::complain(Diagnostic diagnostic) {
   any_error = true;
+  if (diagnostic.kind == DiagnosticKind::UnexpectedToken && is(TokenKind::semicolon)) diagnostic.fix(here(), "");  // nothing ends a statement
   const bool brace = is(TokenKind::left_brace) || is(TokenKind::right_brace);
   if (brace && diagnostic.span == here()) lost_structure = true;
   if (!silent) diagnostics.report(std::move(diagnostic));

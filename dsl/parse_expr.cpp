@@ -204,6 +204,15 @@ std::vector<Expr> parse_arguments(Parser& parser) {
   return arguments;
 }
 
+std::vector<Expr> parse_indices(Parser& parser) {
+  std::vector<Expr> indices;
+  while (!parser.silent && indices.size() < kMaxNesting && parser.accept(TokenKind::left_bracket)) {
+    indices.push_back(parse_expression(parser, "an index"));
+    parser.expect(TokenKind::right_bracket);
+  }
+  return indices;
+}
+
 Expr parse_expression(Parser& parser, const char* what) {
   const Nested nested(parser);
   if (!nested.fits) return {};

@@ -104,48 +104,6 @@ StateDeclaration parse_state(Parser& parser) {
   return state;
 }
 
-FeatureTerm parse_feature_term(Parser& parser) {
-  FeatureTerm term;
-  const uint32_t begin = parser.peek().begin;
-  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
-  term.feature = parser.expect_name("a feature");
-  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
-    term.negated ^= parser.is(TokenKind::not_equal);
-    parser.take();
-    term.value = parser.expect_name("a value of the feature");
-  }
-  term.span = parser.since(begin);
-  return term;
-}
-
-// `requires a and b == low`, `excludes c or d`, any number of them
-void parse_feature_rules(Parser& parser, const Name& value, FeatureDeclaration& feature) {
-  while (!parser.silent && (parser.is_word("requires") || parser.is_word("excludes"))) {
-    const bool excludes = parser.is_word("excludes");
-    parser.take();
-    do {
-      feature.rules.push_back({value, parse_feature_term(parser), excludes});
-    } while (!parser.silent && parser.accept_word(excludes ? "or" : "and"));
-  }
-}
-
-FeatureDeclaration parse_feature(Parser& parser) {
-  FeatureDeclaration feature;
-  parser.take();
-  feature.name = parser.expect_name("the name of the feature");
-  parser.expect(TokenKind::colon);
-  if (!parser.silent && parser.accept_word("bool")) return parse_feature_rules(parser, {}, feature), feature;
-  feature.is_bool = false;
-  const Span open = parser.here();
-  if (parser.silent || !parser.expect(TokenKind::left_brace)) return feature;
-  do {
-    feature.values.push_back(parser.expect_name("a value"));
-    parse_feature_rules(parser, feature.values.back(), feature);
-  } while (!parser.silent && parser.accept(TokenKind::comma));
-  if (!parser.silent) close_block(parser, open);
-  return feature;
-}
-
 ConditionDeclaration parse_condition(Parser& parser) {
   ConditionDeclaration condition;
   parser.take();
@@ -181,7 +139,8 @@ Parameter parse_surface(Parser& parser) {
   const uint32_t begin = parser.peek().begin;
   parser.take();
   parameter.name = parameter.surface.name = parser.expect_name("the name of the surface");
-  parser.expect(TokenKind::colon);
+  if (!parser.accept(TokenKind::colon)) parser.expected("`:` and the surface's format and size");
+  parameter.surface.has_error = parser.silent;
   if (!parser.silent) parameter.surface = parse_image_type(parser, std::move(parameter.surface));
   parameter.span = parser.since(begin);
   return parameter;
@@ -250,6 +209,8 @@ When parse_when(Parser& parser) {
   parse_items(parser, when.body);
   if (!parser.accept_word("else")) return when;
   const Nested nested(parser);
+  if (parser.is_word("if") && !parser.is_word("host", 1))
+    parser.complain(Diagnostic(DiagnosticKind::UnexpectedToken, parser.here(), {"`when` or `{`", "`if`"}).fix(parser.here(), "when"));
   if (nested.fits && parser.is_word("when"))
     when.otherwise.push_back({parse_when(parser)});
   else
@@ -280,21 +241,45 @@ IfHost parse_if(Parser& parser) {
   return branch;
 }
 
+// `fog`, `lighting.fog`
+Expr parse_qualified(Parser& parser, const char* what) {
+  Expr expr;
+  const Name first = parser.expect_name(what);
+  if (first.empty()) return expr;
+  expr.kind = ExprKind::name;
+  expr.text = first.text, expr.span = first.span;
+  if (!parser.accept(TokenKind::dot)) return expr;
+  Expr member;
+  member.kind = ExprKind::member;
+  member.text = parser.expect_name(what).text;
+  member.operands.push_back(std::move(expr));
+  member.span = parser.since(first.span.begin);
+  return member;
+}
+
+// `(depth, inout hdr)`
+void parse_use_arguments(Parser& parser, Use& use) {
+  if (!parser.expect(TokenKind::left_paren) || parser.accept(TokenKind::right_paren)) return;
+  do {
+    const bool directed = (parser.is_word("in") || parser.is_word("out") || parser.is_word("inout")) && parser.is(TokenKind::identifier, 1);
+    use.directions.push_back(directed ? parser.take_name() : Name{});
+    use.arguments.push_back(parse_expression(parser, "an argument"));
+  } while (!parser.silent && parser.accept(TokenKind::comma));
+  if (!parser.silent) parser.expect(TokenKind::right_paren);
+}
+
 Use parse_use(Parser& parser) {
   Use use;
   const uint32_t begin = parser.peek().begin;
   parser.take();
-  if (parser.is(TokenKind::equal, 1)) {
+  const bool named = parser.is(TokenKind::equal, 1) || parser.is(TokenKind::left_bracket, 1);
+  if (named) {
     use.instance = parser.expect_name("a name");
-    parser.take();
+    use.index = parse_indices(parser);
+    if (!parser.silent) parser.expect(TokenKind::equal);
   }
-  Expr call = parse_expression(parser, "a technique");
-  if (call.kind == ExprKind::call) {
-    use.technique = std::move(call.operands[0]);
-    use.arguments.assign(std::make_move_iterator(call.operands.begin() + 1), std::make_move_iterator(call.operands.end()));
-  } else if (!parser.silent) {
-    parser.expected("`(`");
-  }
+  if (!parser.silent) use.technique = parse_qualified(parser, "a technique");
+  if (!parser.silent) parse_use_arguments(parser, use);
   use.span = parser.since(begin);
   return use;
 }
@@ -305,8 +290,8 @@ void parse_comparison(Parser& parser, Assertion& assertion) {
     if (!parser.is(kind)) continue;
     assertion.comparison = parser.take_name();
     assertion.value = parse_expression(parser, "a number");
-    if (!parser.silent && parser.is(TokenKind::identifier) && !parser.peek().starts_line)
-      assertion.unit = parser.expect_one_of("`KiB`, `MiB`, `GiB` or `%`", {"KiB", "MiB", "GiB", "KB", "MB", "GB", "bytes"});
+    if (!parser.silent && parser.is(TokenKind::identifier) && !parser.peek().starts_line && !parser.is_word("on"))
+      assertion.unit = parser.expect_one_of("`KiB`, `MiB`, `GiB`, `KB`, `MB`, `GB` or `bytes`", {"KiB", "MiB", "GiB", "KB", "MB", "GB", "bytes"});
     return;
   }
 }
@@ -319,6 +304,10 @@ Assertion parse_assertion(Parser& parser) {
   assertion.fact = parser.expect_name("a fact");
   if (!parser.silent && parser.is(TokenKind::left_paren)) assertion.arguments = parse_arguments(parser);
   if (!parser.silent) parse_comparison(parser, assertion);
+  if (!parser.silent && parser.is_word("on") && !parser.peek().starts_line) {
+    parser.take();
+    assertion.on = parser.expect_one_of("`one_queue` or `two_queues`", {"one_queue", "two_queues"});
+  }
   assertion.span = parser.since(begin);
   assertion.text = parser.text.substr(begin, assertion.span.end - begin);
   return assertion;
@@ -341,7 +330,7 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
 void complain_about_item(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("`image`, `buffer`, `pass` or another item of a graph");
   Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "for", "when", "if", "use", "assert", "warn"});
+  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "assert", "warn"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -352,6 +341,8 @@ void parse_item(Parser& parser, std::vector<Item>& items) {
     items.push_back({parse_pass(parser)});
   else if (word == "image" || word == "buffer")
     items.push_back({parse_resource(parser)});
+  else if (word == "bundle")
+    items.push_back({parse_bundle(parser)});
   else if (word == "for")
     items.push_back({parse_for(parser)});
   else if (word == "when")

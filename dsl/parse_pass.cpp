@@ -32,6 +32,9 @@ bool parse_access_option(Parser& parser, ast::AccessStatement& access) {
   } else if (parser.is_word("blend") && !access.blend) {
     parser.take();
     access.blend = parse_blend(parser);
+  } else if (parser.is_word("in") && access.stages.empty()) {
+    parser.take();
+    access.stages = parse_stages(parser);
   } else if (parser.is_word("covers") && !access.covers) {
     access.covers = true;
     parser.take();
@@ -102,7 +105,8 @@ ast::DispatchStatement parse_dispatch(Parser& parser) {
 ast::PerDraw parse_per_draw(Parser& parser) {
   ast::PerDraw per_draw;
   parser.take();
-  if (parser.is(TokenKind::identifier) && parser.is(TokenKind::left_brace, 1)) {
+  const bool scalar = parser.is_word("scalar", 1) && parser.is(TokenKind::left_brace, 2);
+  if (parser.is(TokenKind::identifier) && (parser.is(TokenKind::left_brace, 1) || scalar)) {
     per_draw.declaration = parse_struct(parser);
     per_draw.name = per_draw.declaration->name;
   } else {
@@ -243,7 +247,8 @@ void complain_about_statement(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
   static const std::vector<std::string_view> kWords = {"read",   "write",  "update",     "atomic", "color",    "depth", "stencil", "resolve",
                                                        "params", "shader", "fullscreen", "state",  "dispatch", "draw",  "bind",    "copy",
-                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep",  "features", "spectrum"};
+                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep",  "features", "spectrum",
+                                                       "with"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), kWords);
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
@@ -288,14 +293,23 @@ void parse_pass_body(Parser& parser, PassDeclaration& pass) {
   parse_block(parser, Level::pass, [&] { parse_statement(parser, pass); });
 }
 
+ast::BundleDeclaration parse_bundle(Parser& parser) {
+  ast::BundleDeclaration bundle;
+  PassDeclaration body;
+  parser.take();
+  bundle.name = parser.expect_name("the name of the bundle");
+  parser.lost_names |= bundle.name.empty();
+  parse_pass_body(parser, body);
+  bundle.statements = std::move(body.statements);
+  bundle.has_error = body.has_error;
+  return bundle;
+}
+
 PassDeclaration parse_pass(Parser& parser) {
   PassDeclaration pass;
   parser.take();
   pass.name = parser.expect_name("the name of the pass");
-  if (parser.accept(TokenKind::left_bracket)) {
-    pass.index = parse_expression(parser, "an index");
-    parser.expect(TokenKind::right_bracket);
-  }
+  pass.index = parse_indices(parser);
   pass.span = parser.since(pass.name.span.begin);
   if (!parser.silent) parser.expect(TokenKind::colon);
   pass.kind = parser.expect_one_of("`raster`, `compute`, `transfer` or `host`", {"raster", "compute", "transfer", "host"});

@@ -99,6 +99,14 @@ bool ends_stages(const Parser& parser) {
 
 }  // namespace
 
+std::vector<ast::Name> parse_stages(Parser& parser) {
+  std::vector<ast::Name> stages;
+  do {
+    stages.push_back(parser.expect_name("a stage"));
+  } while (!parser.silent && !ends_stages(parser) && parser.accept(TokenKind::comma));
+  return stages;
+}
+
 ast::Usage parse_usage(Parser& parser) {
   ast::Usage usage;
   const uint32_t begin = parser.peek().begin;
@@ -107,11 +115,7 @@ ast::Usage parse_usage(Parser& parser) {
     usage.sampler = parse_place(parser, "a sampler");
     parser.expect(TokenKind::right_paren);
   }
-  if (!parser.silent && parser.accept_word("in")) {
-    do {
-      usage.stages.push_back(parser.expect_name("a stage"));
-    } while (!parser.silent && !ends_stages(parser) && parser.accept(TokenKind::comma));
-  }
+  if (!parser.silent && parser.accept_word("in")) usage.stages = parse_stages(parser);
   usage.span = parser.since(begin);
   return usage;
 }
@@ -122,10 +126,7 @@ ast::ResourceDeclaration parse_resource(Parser& parser) {
   parser.take();
   resource.name = parser.expect_name(resource.is_buffer ? "the name of the buffer" : "the name of the image");
   parser.lost_names |= resource.name.empty();
-  if (parser.accept(TokenKind::left_bracket)) {
-    resource.index = parse_expression(parser, "an index");
-    parser.expect(TokenKind::right_bracket);
-  }
+  resource.index = parse_indices(parser);
   const bool colon = parser.expect(TokenKind::colon);
   if (!colon && parser.is(TokenKind::colon, 1) && !parser.peek(1).starts_line) parser.at += 2, parser.lost_names = true;  // one word too many
   if (!colon && !parser.is(TokenKind::identifier)) return finish(parser, std::move(resource));

@@ -33,6 +33,7 @@ ast::TypeName parse_type(Parser& parser) {
 ast::StructDeclaration parse_struct(Parser& parser) {
   ast::StructDeclaration record;
   record.name = parser.expect_name("the name of the struct");
+  record.scalar = !parser.silent && parser.accept_word("scalar");
   parse_block(parser, Level::fields, [&] {
     ast::FieldDeclaration field;
     field.name = parser.expect_name("a field");

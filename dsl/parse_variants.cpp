@@ -1,4 +1,4 @@
-// What chooses between variants of a shader: `features` and `spectrum` of a pass, `spectrum` declarations.
+// What chooses between variants: features and their terms, `features` and `spectrum` of a pass, `spectrum` declarations.
 #include "dsl/parser_state.h"
 
 namespace rg::dsl {
@@ -64,6 +64,53 @@ ast::SpectrumDeclaration parse_spectrum(Parser& parser) {
       parse_member(parser, spectrum);
   });
   return spectrum;
+}
+
+ast::FeatureTerm parse_feature_term(Parser& parser) {
+  ast::FeatureTerm term;
+  const uint32_t begin = parser.peek().begin;
+  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
+  if (parser.is(TokenKind::bang)) parser.complain(Diagnostic(DiagnosticKind::UnexpectedToken, parser.here(), {"`not`", "`!`"}).fix(parser.here(), "not "));
+  term.feature = parser.expect_name("a feature");
+  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
+    term.negated ^= parser.is(TokenKind::not_equal);
+    parser.take();
+    term.value = parser.expect_name("a value of the feature");
+  }
+  term.span = parser.since(begin);
+  return term;
+}
+
+namespace {
+
+// `requires a and b == low`, `excludes c or d`, any number of them
+void parse_feature_rules(Parser& parser, const ast::Name& value, ast::FeatureDeclaration& feature) {
+  while (!parser.silent && (parser.is_word("requires") || parser.is_word("excludes"))) {
+    const bool excludes = parser.is_word("excludes");
+    parser.take();
+    do {
+      feature.rules.push_back({value, parse_feature_term(parser), excludes});
+    } while (!parser.silent && parser.accept_word(excludes ? "or" : "and"));
+  }
+}
+
+}  // namespace
+
+ast::FeatureDeclaration parse_feature(Parser& parser) {
+  ast::FeatureDeclaration feature;
+  parser.take();
+  feature.name = parser.expect_name("the name of the feature");
+  parser.expect(TokenKind::colon);
+  if (!parser.silent && parser.accept_word("bool")) return parse_feature_rules(parser, {}, feature), feature;
+  feature.is_bool = false;
+  const Span open = parser.here();
+  if (parser.silent || !parser.expect(TokenKind::left_brace)) return feature;
+  do {
+    feature.values.push_back(parser.expect_name("a value"));
+    parse_feature_rules(parser, feature.values.back(), feature);
+  } while (!parser.silent && parser.accept(TokenKind::comma));
+  if (!parser.silent) close_block(parser, open);
+  return feature;
 }
 
 }  // namespace rg::dsl

@@ -82,6 +82,7 @@ void close_block(Parser& parser, Span open);
 ast::Expr parse_expression(Parser& parser, const char* what = "an expression");
 ast::Expr parse_place(Parser& parser, const char* what);  // a name with `.member`, `[index]` and `.member(call)` behind it
 std::vector<ast::Expr> parse_arguments(Parser& parser);   // `(a, b, c)`
+std::vector<ast::Expr> parse_indices(Parser& parser);     // `[i]`, `[i][j]`, or nothing
 ast::TypeName parse_type(Parser& parser);
 struct SettingShape {  // of one setting: its word, the second word where it has one, how many words and numbers follow
   std::string_view word, second;
@@ -91,12 +92,16 @@ struct SettingShape {  // of one setting: its word, the second word where it has
 std::vector<ast::Setting> parse_settings(Parser& parser, std::initializer_list<SettingShape> shapes, const char* what);
 ast::Setting parse_setting(Parser& parser, const SettingShape& shape);
 ast::Usage parse_usage(Parser& parser);
+std::vector<ast::Name> parse_stages(Parser& parser);      // after `in`
 ast::StructDeclaration parse_struct(Parser& parser);      // after `struct`
 ast::ResourceDeclaration parse_resource(Parser& parser);  // after `image` or `buffer` of a graph
 ast::ResourceDeclaration parse_member(Parser& parser);    // of an interface
 ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclaration image);
 ast::PassDeclaration parse_pass(Parser& parser);  // after `pass`
+ast::BundleDeclaration parse_bundle(Parser& parser);
 void parse_pass_body(Parser& parser, ast::PassDeclaration& pass);
+ast::FeatureTerm parse_feature_term(Parser& parser);         // `not fog`, `path == low`
+ast::FeatureDeclaration parse_feature(Parser& parser);
 ast::FeaturesStatement parse_features(Parser& parser);
 ast::SpectrumStatement parse_spectrum_statement(Parser& parser);
 ast::SpectrumDeclaration parse_spectrum(Parser& parser);

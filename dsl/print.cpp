@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "dsl/layout.h"
+
 #include "dsl/format_table.h"
 #include "dsl/source.h"
 
@@ -78,7 +80,8 @@ void print_extent(Printer& at, const Extent& extent) {
 }
 
 void print_struct(Printer& at, const Struct& record) {
-  at.line("struct {} std140 {}/{} std430 {}/{}", record.name, record.size140, record.align140, record.size430, record.align430);
+  at.line("struct {}{} std140 {}/{} std430 {}/{}", record.name, is_scalar(record) ? " scalar" : "", record.size140, record.align140, record.size430,
+          record.align430);
   for (const Field& field : record.fields)
     at.line("  {}: {} @{} @{}", field.name, print_type(at.program, field.type), field.offset140, field.offset430);
 }

@@ -30,6 +30,12 @@ std::string text(const ast::Expr& expr) {
 
 std::string text(const ast::Boxed<ast::Expr>& expr) { return expr ? " " + text(*expr) : ""; }
 
+std::string text(const std::vector<ast::Expr>& indices) {
+  std::string out;
+  for (const ast::Expr& index : indices) out += "[" + text(index) + "]";
+  return out;
+}
+
 std::string text(const TypeName& type) {
   std::string out = text(type.name);
   if (type.unsized) return out + "[]";
@@ -59,7 +65,7 @@ std::string settings_text(const std::vector<Setting>& settings) {
 
 std::string resource_text(const ResourceDeclaration& node) {
   std::string out = node.is_buffer ? "buffer " : "image ";
-  out += text(node.name) + (node.index ? "[" + text(*node.index) + "]" : "") + " : ";
+  out += text(node.name) + text(node.index) + " : ";
   out += node.is_buffer ? text(node.element) : text(node.format) + text(node.size);
   out += settings_text(node.settings);
   if (node.has_init) out += " (init" + text(node.clear) + ")";
@@ -74,6 +80,7 @@ std::string access_text(const AccessStatement& node) {
   if (!node.rename.empty()) out += " " + text(node.rename) + " =";
   out += " " + text(node.target);
   if (node.usage) out += text(*node.usage);
+  for (const Name& stage : node.stages) out += " in " + text(stage);
   if (node.clear) out += " clear" + text(node.clear);
   if (node.blend) {
     out += " blend " + text(node.blend->op);
@@ -132,9 +139,16 @@ void print_items(Printer& at, const std::vector<Item>& items);
 void visit(Printer& at, const ResourceDeclaration& node) { at.line(resource_text(node)); }
 
 void visit(Printer& at, const PassDeclaration& node) {
-  std::string out = "pass " + text(node.name) + (node.index ? "[" + text(*node.index) + "]" : "") + " : " + text(node.kind);
+  std::string out = "pass " + text(node.name) + text(node.index) + " : " + text(node.kind);
   if (!node.queue.empty()) out += " queue " + text(node.queue) + (node.queue_may ? " may" : "");
   at.line(out + (node.has_error ? " !" : ""));
+  ++at.depth;
+  for (const Statement& statement : node.statements) std::visit([&](const auto& each) { visit(at, each); }, statement);
+  --at.depth;
+}
+
+void visit(Printer& at, const BundleDeclaration& node) {
+  at.line("bundle " + text(node.name) + (node.has_error ? " !" : ""));
   ++at.depth;
   for (const Statement& statement : node.statements) std::visit([&](const auto& each) { visit(at, each); }, statement);
   --at.depth;
@@ -163,8 +177,9 @@ void visit(Printer& at, const IfHost& node) {
 }
 
 void visit(Printer& at, const Use& node) {
-  std::string out = "use " + (node.instance.empty() ? "" : text(node.instance) + " = ") + text(node.technique);
-  for (const ast::Expr& argument : node.arguments) out += " " + text(argument);
+  std::string out = "use " + (node.instance.empty() ? "" : text(node.instance) + text(node.index) + " = ") + text(node.technique);
+  for (size_t i = 0; i < node.arguments.size(); ++i)
+    out += (i < node.directions.size() && !node.directions[i].empty() ? " " + text(node.directions[i]) : "") + " " + text(node.arguments[i]);
   at.line(out);
 }
 
@@ -189,7 +204,7 @@ void visit(Printer& at, const ExtentDeclaration& node) {
 }
 
 void visit(Printer& at, const StructDeclaration& node) {
-  at.line("struct " + text(node.name));
+  at.line("struct " + text(node.name) + (node.scalar ? " scalar" : ""));
   ++at.depth;
   for (const FieldDeclaration& field : node.fields) at.line(text(field.name) + ": " + text(field.type));
   --at.depth;

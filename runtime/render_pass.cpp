@@ -20,7 +20,9 @@ struct RenderPassShape {
   VkAttachmentReference2 depth{};
   VkAttachmentReferenceStencilLayout stencil_reference{};
   VkAttachmentDescriptionStencilLayout stencil_description{};
-  bool has_depth = false, has_resolves = false;
+  VkAttachmentReference2 depth_target{};
+  VkSubpassDescriptionDepthStencilResolve depth_resolve{};
+  bool has_depth = false, has_resolves = false, has_depth_resolve = false;
 };
 
 VkAttachmentReference2 reference(uint32_t attachment, Layout layout, VkImageAspectFlags aspects) {
@@ -136,11 +138,24 @@ void add_resolve(const Context& context, const Attachment& attachment, RenderPas
   shape.has_resolves = true;
 }
 
+void add_depth_resolve(const Context& context, const Attachment& attachment, RenderPassShape& shape) {
+  if (!resolves(attachment)) return;
+  VkAttachmentDescription2 target = description(context, attachment.resolve, attachment.resolve_layout);
+  target.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  shape.depth_target = reference(static_cast<uint32_t>(shape.descriptions.size()), attachment.resolve_layout, VK_IMAGE_ASPECT_DEPTH_BIT);
+  shape.depth_resolve.sType = VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE;
+  shape.depth_resolve.depthResolveMode = static_cast<VkResolveModeFlagBits>(attachment.resolve_mode);
+  shape.depth_resolve.pDepthStencilResolveAttachment = &shape.depth_target;
+  shape.descriptions.push_back(target);
+  shape.has_depth_resolve = true;
+}
+
 void fill_shape(const Context& context, Index pass, const Rendering& rendering, RenderingPart part, RenderPassShape& shape) {
   const std::span<const Attachment> colors = context.plan.attachments.subspan(rendering.first_color, rendering.color_count);
   for (const Attachment& color : colors) add_color(context, attachment_in(color, part), shape);
   if (depth_or_stencil(rendering) != kNone) add_depth(context, pass, rendering, part, shape);
   for (const Attachment& color : colors) add_resolve(context, attachment_in(color, part), shape);
+  if (rendering.depth != kNone) add_depth_resolve(context, attachment_in(context.plan.attachments[rendering.depth], part), shape);
 }
 
 VkImageUsageFlags attachment_usage(const Context& context, Ref ref) {
@@ -205,6 +220,7 @@ void list_framebuffer_views(const Rendering& plan, RenderingTable& table) {
   }
   for (uint32_t i = 0; i < plan.color_count; ++i)
     add(table.resolve_views[i], {});
+  if (plan.depth != kNone) add(table.resolve_views[plan.color_count], {});
   table.framebuffer_handles.resize(table.framebuffer_views.size());
 }
 
@@ -262,6 +278,7 @@ Result<UniqueRenderPass> create_render_pass(const Context& context, Index pass, 
   subpass.pColorAttachments = shape.colors.data();
   subpass.pResolveAttachments = shape.has_resolves ? shape.color_resolves.data() : nullptr;
   subpass.pDepthStencilAttachment = shape.has_depth ? &shape.depth : nullptr;
+  if (shape.has_depth_resolve) subpass.pNext = &shape.depth_resolve;
   VkRenderPassCreateInfo2 info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO_2;
   info.attachmentCount = static_cast<uint32_t>(shape.descriptions.size());

@@ -52,6 +52,11 @@ struct ResourceFigures {
   bool transient = false;
   Index first = kNone, last = kNone;  // positions of its first and last user
 };
+// Of one pass: each count's greatest over its shaders and their variants, as `assert` judges it. Static: an instruction in a loop counts once.
+struct ShaderFigures {
+  uint32_t instructions = 0, alu = 0, samples = 0, loads = 0, stores = 0, atomics = 0, branches = 0;
+  uint32_t shared_bytes = 0, live_scalars = 0;  // live: 32-bit values alive at once
+};
 constexpr bool runs_before(const PassFigures& a, const PassFigures& b) { return a.position < b.position; }
 // No barrier separates the two, or they run on different queues and neither waits for the other.
 constexpr bool overlap(const PassFigures& a, const PassFigures& b) {

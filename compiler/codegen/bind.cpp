@@ -104,9 +104,9 @@ Format vertex_format(const dsl::Type& type) {
 uint32_t column_bytes(const dsl::Type& type) { return type.columns == 1 ? 4u * type.rows : type.rows == 2 ? 8u : 16u; }
 
 // One location a column of each array element, as GLSL counts them.
-void add_attributes(PlanData& plan, const dsl::Field& field, uint32_t binding, uint32_t& location) {
+void add_attributes(PlanData& plan, const dsl::Field& field, bool scalar, uint32_t binding, uint32_t& location) {
   const uint32_t columns = field.type.columns * std::max(field.type.count, 1u);
-  const uint32_t stride = field.type.count > 0 && field.type.columns == 1 && field.type.rows == 3 ? 16 : column_bytes(field.type);
+  const uint32_t stride = scalar ? 4u * field.type.rows : field.type.count > 0 && field.type.columns == 1 && field.type.rows == 3 ? 16 : column_bytes(field.type);
   for (uint32_t i = 0; i < columns; ++i)
     plan.vertex_attributes.push_back({location++, binding, field.offset430 + i * stride, vertex_format(field.type)});
 }
@@ -118,7 +118,7 @@ void add_vertex_input(PlanData& plan, Pipeline& pipeline, const dsl::Program& pr
   for (uint32_t binding = 0; binding < pass.draw.vertex.size(); ++binding) {
     const dsl::Struct& record = program.structs[pass.draw.vertex[binding]];
     plan.vertex_bindings.push_back({record.size430, false});
-    for (const dsl::Field& field : record.fields) add_attributes(plan, field, binding, location);
+    for (const dsl::Field& field : record.fields) add_attributes(plan, field, dsl::is_scalar(record), binding, location);
   }
   pipeline.vertex_binding_count = static_cast<uint32_t>(plan.vertex_bindings.size()) - pipeline.first_vertex_binding;
   pipeline.vertex_attribute_count = static_cast<uint32_t>(plan.vertex_attributes.size()) - pipeline.first_vertex_attribute;

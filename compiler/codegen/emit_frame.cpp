@@ -81,6 +81,12 @@ Row resource_row(const ResourceFigures& resource) {
   return row;
 }
 
+Row shader_row(const ShaderStatistics& s) {
+  Row row;
+  row.number("instructions", s.instructions).number("alu", s.alu).number("samples", s.samples).number("loads", s.loads).number("stores", s.stores);
+  return row.number("atomics", s.atomics).number("branches", s.branches).number("shared_bytes", s.shared_bytes).number("live_scalars", s.live_scalars);
+}
+
 std::string without_break(std::string text) {
   if (text.ends_with('\n')) text.pop_back();
   return text;
@@ -96,11 +102,14 @@ void figure_table(CppWriter& out, const char* type, const char* name, std::vecto
 // The facts that assertions judge, pass by pass and resource by resource.
 void figure_tables(CppWriter& out, const FrameApi& api, const FramePlan& frame) {
   const PlanFigures figures = find_figures(frame.plan);
-  std::vector<Row> passes, resources;
+  std::vector<Row> passes, resources, shaders;
   for (const PassFigures& pass : figures.passes) passes.push_back(pass_row(pass));
   for (const ResourceFigures& resource : figures.resources) resources.push_back(resource_row(resource));
+  if (!frame.plan.shaders.empty())
+    for (const ShaderStatistics& pass : find_shader_figures(frame.plan)) shaders.push_back(shader_row(pass));
   out.line("// By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.");
   figure_table(out, "rg::PassFigures", "kPassFigures", std::move(passes), api.names.passes);
+  figure_table(out, "rg::ShaderFigures", "kShaderFigures", std::move(shaders), api.names.passes);
   figure_table(out, "rg::ResourceFigures", "kResourceFigures", std::move(resources), api.names.resources);
 }
 

@@ -3,6 +3,7 @@
 #include "compiler/codegen/cpp_writer.h"
 #include "compiler/codegen/plan_values.h"
 #include "dsl/check_macro.h"
+#include "dsl/layout.h"
 
 namespace rg::compiler {
 namespace {
@@ -37,6 +38,7 @@ struct Layout {
   const dsl::Program& program;
   const Uses& uses;
   bool std140 = false;
+  bool scalar = false;  // of the struct that is being written
   uint32_t offset(const dsl::Field& field) const { return std140 ? field.offset140 : field.offset430; }
   uint32_t size(const dsl::Struct& record) const { return std140 ? record.size140 : record.size430; }
 };
@@ -44,17 +46,19 @@ struct Layout {
 // Bytes of one element in C++, and the distance GLSL puts between elements of an array.
 uint32_t element_bytes(const Layout& layout, const dsl::Type& type) {
   if (type.record.valid()) return layout.size(layout.program.structs[type.record]);
+  if (layout.scalar) return 4u * type.rows * type.columns;
   if (type.columns > 1) return 16u * type.columns;
   return 4u * type.rows;
 }
 uint32_t array_stride(const Layout& layout, const dsl::Type& type) {
   const uint32_t bytes = element_bytes(layout, type);
-  if (type.record.valid() || type.columns > 1) return bytes;
+  if (type.record.valid() || type.columns > 1 || layout.scalar) return bytes;
   return layout.std140 || type.rows == 3 ? 16 : bytes;
 }
 
 bool same_layout(const dsl::Program& program, dsl::StructId id) {
   const dsl::Struct& record = program.structs[id];
+  if (dsl::is_scalar(record)) return true;
   if (record.size140 != record.size430) return false;
   for (const dsl::Field& field : record.fields) {
     if (field.offset140 != field.offset430) return false;
@@ -80,6 +84,7 @@ class StructEmitter {
 
   std::string emit(dsl::StructId id) {
     const dsl::Struct& record = layout_.program.structs[id];
+    layout_.scalar = dsl::is_scalar(record);
     const std::string name = mirror_name(layout_.program, layout_.uses, id, layout_.std140);
     const std::string place = origin(files_, record.span);
     out_.line("struct " + name + " {" + (place.empty() ? "" : "  // " + place));
@@ -104,7 +109,9 @@ class StructEmitter {
     const uint32_t bytes = element_bytes(layout_, type), stride = array_stride(layout_, type);
     std::string text = mirror_type(layout_.program, layout_.uses, type, layout_.std140);
     if (type.count > 0 && stride != bytes) text = "rg::Padded<" + text + ", " + std::to_string(stride) + ">";
-    const std::string array = type.count > 0 ? "[" + std::to_string(type.count) + "]" : "";
+    std::string array = type.count > 0 ? "[" + std::to_string(type.count) + "]" : "";
+    const bool tight = layout_.scalar && type.columns > 1 && type.rows == 3;  // columns of 12 bytes, which rg::mat3 pads
+    if (tight) text = "rg::vec3", array += "[" + std::to_string(type.columns) + "]";
     const bool is_scalar = array.empty() && !type.record.valid() && type.rows == 1 && type.columns == 1;
     out_.line("  " + text + " " + cpp_name(field.name) + array + (is_scalar ? " = 0;" : " = {};"));
     at_ += type.count > 0 ? stride * type.count : bytes;

@@ -97,7 +97,7 @@ std::vector<Touch> touches_as(Role role, bool reads, bool writes, uint32_t stage
     case Role::storage:
       return shader_touches(stages, reads ? access::shader_storage_read : 0, writes ? access::shader_storage_write : 0);
     case Role::input:
-      return simple(stage::fragment_shader, access::input_attachment_read, 0);
+      return simple(stage::fragment_shader, access::shader_sampled_read, 0);
     case Role::vertex:
       return simple(stage::vertex_attribute_input, access::vertex_attribute_read, 0);
     case Role::index:

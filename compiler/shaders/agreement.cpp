@@ -35,7 +35,8 @@ bool used_as_written(const StageOutput& stage, const InterfaceBinding& binding) 
 void check_used(const Checker& c, const InterfaceBinding& binding) {
   const bool used = std::any_of(c.stages.begin(), c.stages.end(), [&](const StageOutput& stage) { return used_as_written(stage, binding); });
   if (used) return;
-  auto& diagnostic = c.diagnostics.report(DiagnosticKind::UnusedAccess, binding.span, {binding.name, c.context.pass.name});
+  const std::string& name = binding.access != dsl::kAll ? c.context.pass.accesses[binding.access].name : binding.name;
+  auto& diagnostic = c.diagnostics.report(DiagnosticKind::UnusedAccess, binding.span, {name, c.context.pass.name});
   for (const StageOutput& stage : c.stages) diagnostic.note(DiagnosticKind::ShaderOfPass, stage.span, {c.context.pass.name});
 }
 

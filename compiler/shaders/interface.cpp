@@ -6,6 +6,7 @@
 
 #include "compiler/shaders/glsl_types.h"
 #include "dsl/format_table.h"
+#include "dsl/layout.h"
 
 namespace rg::compiler {
 namespace {
@@ -113,20 +114,26 @@ std::string texel_buffer_type(const dsl::Resource& buffer, BindingKind kind) {
   return (texel == 'f' ? "" : std::string(1, texel)) + (kind == BindingKind::texel_buffer ? "textureBuffer" : "imageBuffer");
 }
 
+const char* block_layout(const dsl::Program& program, const dsl::Type& type, const char* otherwise) {
+  return type.record.valid() && dsl::is_scalar(program.structs[type.record]) ? "scalar" : otherwise;
+}
+
 std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, const InterfaceBinding& binding) {
   const std::string place = "set = 1, binding = " + std::to_string(binding.binding);
   const std::string block = "rg_block_" + binding.name;
   if (binding.kind == BindingKind::params) {
     const dsl::Type type{.record = graph.params[pass.params[binding.params]].type};
-    return "layout(" + place + ", std140) uniform " + block + " { " + glsl_variable(program, type, binding.name) + "; };";
+    return "layout(" + place + ", " + block_layout(program, type, "std140") + ") uniform " + block + " { " +
+           glsl_variable(program, type, binding.name) + "; };";
   }
   const dsl::Access& access = pass.accesses[binding.access];
   const dsl::Resource& resource = graph.resources[access.resource];
   if (binding.kind == BindingKind::storage_buffer)
-    return "layout(" + place + ", std430) " + memory_qualifier(access.mode) + "buffer " + block + " { " + glsl_type(program, resource.element) + " " +
+    return "layout(" + place + ", " + block_layout(program, resource.element, "std430") + ") " + memory_qualifier(access.mode) + "buffer " + block + " { " + glsl_type(program, resource.element) + " " +
            binding.name + "[]; };";
   if (binding.kind == BindingKind::uniform_buffer)
-    return "layout(" + place + ", std140) uniform " + block + " { " + glsl_variable(program, resource.element, binding.name) + "; };";
+    return "layout(" + place + ", " + block_layout(program, resource.element, "std140") + ") uniform " + block + " { " +
+           glsl_variable(program, resource.element, binding.name) + "; };";
   const bool texels = resource.kind == dsl::ResourceKind::buffer;
   const std::string type = texels ? texel_buffer_type(resource, binding.kind) : opaque_type(program, resource, access, binding.kind);
   if (binding.kind != BindingKind::storage_image && binding.kind != BindingKind::storage_texel_buffer)
@@ -134,6 +141,20 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
   const std::string format = glsl_image_format(dsl::seen_format(resource, access));
   return "layout(" + place + (format.empty() ? "" : ", " + format) + ") " + memory_qualifier(access.mode) + "uniform " + type + " " + binding.name +
          ";";
+}
+
+bool is_input(const dsl::Pass& pass, const InterfaceBinding& binding) {
+  return binding.access != dsl::kAll && pass.accesses[binding.access].role == dsl::Role::input;
+}
+
+// An input attachment is a value: its texel at the fragment's own pixel, and sample where it has several.
+std::string input_text(const dsl::Graph& graph, const dsl::Pass& pass, const InterfaceBinding& binding) {
+  const dsl::Access& access = pass.accesses[binding.access];
+  const dsl::Resource& image = graph.resources[access.resource];
+  const std::string layer = !view_shape(image, access).arrayed ? "ivec2(gl_FragCoord.xy)"
+                                                               : "ivec3(gl_FragCoord.xy, gl_Layer)";
+  const std::string sample = image.samples > 1 ? "gl_SampleID" : "0";
+  return "#define " + access.name + " texelFetch(" + binding.name + ", " + layer + ", " + sample + ")";
 }
 
 // ---- what else a stage sees
@@ -164,7 +185,10 @@ void add_vertex_inputs(const dsl::Program& program, const dsl::Pass& pass, Prelu
 void add_stage_interface(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage, Prelude& prelude) {
   if (pass.draw.per_draw.valid()) {
     const std::string type = program.structs[pass.draw.per_draw].name;
-    prelude.push_back({"layout(push_constant, std430) uniform rg_block_per_draw { " + type + " per_draw; };", pass.span});
+    const dsl::Type record{.record = pass.draw.per_draw};
+    prelude.push_back({std::string("layout(push_constant, ") + block_layout(program, record, "std430") + ") uniform rg_block_per_draw { " + type +
+                           " per_draw; };",
+                       pass.span});
   }
   if (stage == dsl::stage_vertex) add_vertex_inputs(program, pass, prelude);
   if (stage == dsl::stage_fragment) {
@@ -194,6 +218,9 @@ bool binding_kind(const dsl::Graph& graph, const dsl::Access& access, BindingKin
     case dsl::Role::uniform:
       kind = BindingKind::uniform_buffer;
       return !image;
+    case dsl::Role::input:
+      kind = BindingKind::texture;
+      return true;
     default:
       return false;
   }
@@ -230,7 +257,8 @@ std::vector<InterfaceBinding> pass_bindings(const dsl::Program&, const dsl::Grap
   if (pass.kind != dsl::PassKind::raster && pass.kind != dsl::PassKind::compute) return bindings;
   for (uint32_t i = 0; i < pass.accesses.size(); ++i) {
     const dsl::Access& access = pass.accesses[i];
-    InterfaceBinding binding{.binding = static_cast<uint32_t>(bindings.size()), .access = i, .name = access.name, .span = access.span};
+    const std::string name = (access.role == dsl::Role::input ? "rg_input_" : "") + access.name;
+    InterfaceBinding binding{.binding = static_cast<uint32_t>(bindings.size()), .access = i, .name = name, .span = access.span};
     if (binding_kind(graph, access, binding.kind)) bindings.push_back(std::move(binding));
   }
   for (uint32_t i = 0; i < pass.params.size(); ++i) {
@@ -269,13 +297,18 @@ std::string feature_macro(const dsl::ShaderFeature& feature) { return "FEATURE_"
 Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass, dsl::Stage stage, const FixedFeatures& fixed) {
   Prelude prelude;
   for (const char* line : kHeader) prelude.push_back({line, {}});
+  const bool scalar = std::any_of(program.structs.begin(), program.structs.end(), dsl::is_scalar);
+  if (scalar) prelude.push_back({"#extension GL_EXT_scalar_block_layout : require", {}});
   add_constants(program, prelude);
   add_structs(program, prelude);
   add_features(pass, fixed, prelude);
   if (const dsl::EngineSet* set = engine_set_of(program, pass))
     for (std::string& declaration : engine_set_declarations(*set)) prelude.push_back({std::move(declaration), set->span});
-  for (const InterfaceBinding& binding : pass_bindings(program, graph, pass))
+  for (const InterfaceBinding& binding : pass_bindings(program, graph, pass)) {
+    if (is_input(pass, binding) && stage != dsl::stage_fragment) continue;
     prelude.push_back({binding_text(program, graph, pass, binding), binding.span});
+    if (is_input(pass, binding)) prelude.push_back({input_text(graph, pass, binding), binding.span});
+  }
   add_stage_interface(program, graph, pass, stage, prelude);
   for (const std::string& line : pass.interface_lines) prelude.push_back({line, pass.span});
   return prelude;

@@ -273,4 +273,14 @@ ShaderStatistics find_statistics(const Words& words) {
   return statistics;
 }
 
+ShaderStatistics greatest(const ShaderStatistics& a, const ShaderStatistics& b) {
+  ShaderStatistics most = a;
+  for (uint32_t ShaderStatistics::*count :
+       {&ShaderStatistics::instructions, &ShaderStatistics::alu, &ShaderStatistics::samples, &ShaderStatistics::loads, &ShaderStatistics::stores,
+        &ShaderStatistics::atomics, &ShaderStatistics::barriers, &ShaderStatistics::branches, &ShaderStatistics::shared_bytes,
+        &ShaderStatistics::live_scalars})
+    most.*count = std::max(a.*count, b.*count);
+  return most;
+}
+
 }  // namespace rg::compiler

@@ -24,6 +24,9 @@ struct ShaderStatistics {
   friend bool operator==(const ShaderStatistics&, const ShaderStatistics&) = default;
 };
 
+// Each count's greater one.
+ShaderStatistics greatest(const ShaderStatistics& a, const ShaderStatistics& b);
+
 // `words` is a valid module. O(instructions + blocks * values alive across them).
 ShaderStatistics find_statistics(const Words& words);
 

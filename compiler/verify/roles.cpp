@@ -116,7 +116,7 @@ std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access, 
     case Role::indirect:
       return {{stage_bit(kDrawIndirect), access_bit(kIndirectRead)}};
     case Role::input:
-      return {{stage_bit(kFragmentShader), access_bit(kInputAttachmentRead)}};
+      return {{stage_bit(kFragmentShader), access_bit(kSampledRead)}};  // fetched: a rendering of one pass has no subpass to take it from
     case Role::copy_src:
       return {transfer(kCopy, false)};
     case Role::copy_dst:

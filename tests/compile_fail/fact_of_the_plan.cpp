@@ -4,6 +4,7 @@
 
 using namespace recorders;
 static_assert(rg::lifetime(kResourceFigures[0]) >= 1);
+static_assert(kShaderFigures[pass::meshes].instructions > 0 && kShaderFigures[pass::meshes].shared_bytes == 0);
 static_assert(!rg::share_bytes(kResourceFigures[0], rg::ResourceFigures{}));
 
 #ifdef RG_RIGHT

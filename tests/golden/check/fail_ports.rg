@@ -34,6 +34,7 @@ graph frame(surface backbuffer: rgba8 view after copy_src)
   }
   use fade(hdr, sharp)  //~ note[RG0452]: `fade` is used here
   use wrong = fade(low, sharp)  //~ error[RG0252]: parameter `source` takes `rgba16f`, and `low` is `r8`
+  use none = fade(4, sharp)  //~ error[RG0238]: expected a resource or a part of one
   use weigh(words, low)  //~ error[RG0252]: parameter `weights` takes `f32`, and `words` is `u32`
   pass show : raster { color backbuffer clear 0 }
 }

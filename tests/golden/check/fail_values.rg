@@ -9,7 +9,7 @@ const G = good.w  //~ error[RG0223]: there is no part called `w`
 const H = good * 0.5  //~ error[RG0219]: expected whole numbers, because extents are whole numbers
 const I = ceil(good)  //~ error[RG0219]: expected a quotient, such as `ceil(view / 8)`
 extent good = runtime(4, 4)
-const J = [1, [2, 3]]  //~ error[RG0219]: expected a number
+const J = [1, [2, 3], [4, 5]]  //~ error[RG0219]: expected a number
 const K = Thing  //~ error[RG0204]: `Thing` is a struct, not a number or a size
 extent view = runtime(4000, 10) max(3840, 2160)  //~ error[RG0227]: extent `view` starts at 4000, over its maximum of 3840
 //~^ note[RG0228]: the maximum is here

@@ -1,0 +1,34 @@
+// Bundles, directions at a use, layouts in one another.
+module bundles
+
+extent view = runtime(64, 64) max(64, 64)
+
+struct Spin { axis: vec3  speed: f32 }  //~ note[RG0202]: `Spin` is declared here
+struct Particle scalar {
+  at:   vec3
+  spin: Spin  //~ error[RG0340]: `scalar` does not go with `Spin`
+}
+technique tone(image source, inout image target) {  //~ note[RG0202]: `target` is declared here
+  pass tone : compute {
+    read   source as sampled
+    update target as storage
+  }
+}
+
+graph frame(surface backbuffer: rgba8 view after copy_src)
+{
+  image hdr  : rgba16f view
+
+  bundle lit { with shadowed  read hdr as sampled }  //~ note[RG0452]: `shadowed` is used here
+  bundle shadowed { with lit }  //~ error[RG0208]: `lit` is declared by means of itself
+  bundle wrong { read hdr as smapled }  //~ error[RG0242]: there is no role called `smapled`
+
+  pass light : compute { write hdr as storage  write backbuffer as storage }
+  pass shade : compute { with lit }  //~ note[RG0452]: `lit` is used here
+  for i in 0..2 { pass each[i] : compute { with wrong } }  //~ note[RG0452]: `wrong` is used here
+  pass miss  : compute { with lut }  //~ error[RG0203]: there is no bundle called `lut`
+  pass both  : raster { read hdr as sampled in fragment in vertex  color backbuffer clear 0 }  //~ error[RG0117]: `in` is set twice
+  use tone(hdr, out backbuffer)  //~ error[RG0340]: `out` does not go with `target`
+  use tone(hdr, backbuffer)  //~ note[RG0202]: `tone` is declared here
+  use tone(hdr, backbuffer)  //~ error[RG0201]: `tone` is declared twice
+}
