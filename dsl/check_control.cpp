@@ -236,6 +236,16 @@ void visit(Walker at, const ast::Use& node) {
   note_use(at, told, node, std::string(symbol.name.text));
 }
 
+void visit(Walker at, const ast::Fuse& node) {
+  if (at.phase == Phase::resources) return walk(at, node.body);
+  const FusionId outer = at.scope.fusion;
+  at.scope.fusion = declare_fusion(at.checker, at.scope, node);
+  if (!at.scope.fusion.valid()) at.scope.incomplete = true;
+  walk(at, node.body);
+  if (at.scope.fusion.valid()) finish_fusion(at.checker, at.scope, at.scope.fusion);
+  at.scope.fusion = outer;
+}
+
 std::string argument_name(Walker at, const ast::Expr& expr) {
   if (expr.kind != ast::ExprKind::index) return spelled(expr);
   const auto index = evaluate_integer(at.checker, &at.scope, at.scope.module, expr.operands[1], 0, UINT32_MAX);

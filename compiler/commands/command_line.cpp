@@ -41,6 +41,8 @@ void add_shader_options(CLI::App& command, compiler::CompileOptions& options) {
 // Options that change the plan.
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
+  command.add_flag_callback(
+      "--no-fuse", [&options] { options.fuse = false; }, "every block is a kernel of its own, whatever `fuse` says");
   const auto off = [&](const char* flag, bool& what, const char* help) {
     command.add_flag_callback(
         flag, [&what] { what = false; }, help);
