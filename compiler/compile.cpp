@@ -66,7 +66,7 @@ std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const d
 std::vector<std::string> make_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, CompileResult& result,
                                       dsl::Diagnostics& diagnostics) {
   const ReadFile reader = shader_reader(root_path, read);
-  FusionResult fusion = fuse_passes(result.program, reader, result.sources, {options.fuse}, diagnostics);
+  FusionResult fusion = fuse_passes(result.program, reader, result.sources, {options.fuse, options.halves}, diagnostics);
   result.written = std::exchange(result.program, std::move(fusion.program));
   result.fused = std::move(fusion.kernels);
   result.not_fused = std::move(fusion.refusals);

@@ -36,6 +36,7 @@ struct CompileOptions {
   std::optional<uint32_t> spectrum_modes;          // replaces their numbers of kernels
   std::vector<std::string> forced_features;        // of spectra: on in every mask
   bool fuse = true;                                // false: every block is a kernel of its own
+  HalfRounding halves = HalfRounding::zero;        // of images on the devices this is for; see fusion/conversions.h
   std::string command;                             // as it shall stand in the banner of generated files
   std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
 };

@@ -43,6 +43,10 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
   command.add_flag_callback(
       "--no-fuse", [&options] { options.fuse = false; }, "every block is a kernel of its own, whatever `fuse` says");
+  command.add_option_function<std::string>(
+             "--halves", [&options](const std::string& word) { options.halves = word == "zero" ? compiler::HalfRounding::zero : compiler::HalfRounding::nearest; },
+             "how images of the device round 16-bit floats: zero (default) or nearest")
+      ->check(CLI::IsMember({"zero", "nearest"}));
   const auto off = [&](const char* flag, bool& what, const char* help) {
     command.add_flag_callback(
         flag, [&what] { what = false; }, help);

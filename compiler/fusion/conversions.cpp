@@ -17,8 +17,14 @@ std::string vector_of(const std::string& scalar, uint32_t count) {
 
 bool is_small_float(Format format) { return format == Format::r16f || format == Format::rg16f || format == Format::rgba16f; }
 
-// The device's own conversion: which way it rounds is its choice, in images and here.
-std::string half_body(uint32_t count) {
+std::string list_of(uint32_t count, const std::string& type, const std::string& function, const std::string& rest) {
+  std::string list;
+  for (uint32_t i = 0; i < count; ++i) list += (i == 0 ? "" : ", ") + function + "(v" + (count == 1 ? "" : std::string(".") + "xyzw"[i]) + rest + ")";
+  return "return " + (count == 1 ? list : type + "(" + list + ")") + ";";
+}
+
+std::string half_body(uint32_t count, const std::string& type, HalfRounding rounding) {
+  if (rounding == HalfRounding::zero) return list_of(count, type, "rg_to_half", "");
   if (count == 1) return "return unpackHalf2x16(packHalf2x16(vec2(v, 0.0))).x;";
   if (count == 2) return "return unpackHalf2x16(packHalf2x16(v));";
   return "return vec4(unpackHalf2x16(packHalf2x16(v.xy)), unpackHalf2x16(packHalf2x16(v.zw)));";
@@ -34,6 +40,9 @@ std::string small_floats() {
          "  if (bits >= 0x38800000u) return min(uintBitsToFloat(bits >> lost << lost), uintBitsToFloat(0x47000000u | 0x7FFFFFu >> lost << lost));\n"
          "  float unit = uintBitsToFloat((127u - 14u - mantissa) << 23);\n"
          "  return floor(v / unit) * unit;\n"
+         "}\n"
+         "float rg_to_half(float v) {\n"
+         "  return uintBitsToFloat(floatBitsToUint(rg_to_unsigned_float(abs(v), 10u)) | (floatBitsToUint(v) & 0x80000000u));\n"
          "}\n";
 }
 
@@ -53,9 +62,9 @@ std::string per_component(Format format, const std::string& type, const std::str
 const char* helper(Format format) {
   switch (dsl::info(format).numeric) {
     case Numeric::unorm:
-      return "float rg_to_unorm(float v, uint bits) { float most = float((1u << bits) - 1u); return roundEven(clamp(v, 0.0, 1.0) * most) / most; }\n";
+      return "float rg_to_unorm(float v, uint bits) { float most = float((1u << bits) - 1u); return float(uint(roundEven(max(min(v, 1.0), 0.0) * most))) / most; }\n";
     case Numeric::snorm:
-      return "float rg_to_snorm(float v, uint bits) { float most = float((1u << (bits - 1u)) - 1u); return roundEven(clamp(v, -1.0, 1.0) * most) / most; }\n";
+      return "float rg_to_snorm(float v, uint bits) { float most = float((1u << (bits - 1u)) - 1u); return float(int(roundEven(max(min(v, 1.0), -1.0) * most))) / most; }\n";
     case Numeric::uint:
       return "uint rg_to_uint(uint v, uint bits) { return min(v, (1u << bits) - 1u); }\n";
     case Numeric::sint:
@@ -72,9 +81,9 @@ bool loses_nothing(Format format) {
   return wide && info.block_bytes == 4 * components(format) && format != Format::r11g11b10f && format != Format::rgb10a2ui;
 }
 
-std::string body(Format format, const std::string& type) {
+std::string body(Format format, const std::string& type, HalfRounding rounding) {
   if (format == Format::r11g11b10f) return "return vec3(rg_to_unsigned_float(v.x, 6u), rg_to_unsigned_float(v.y, 6u), rg_to_unsigned_float(v.z, 5u));";
-  if (is_small_float(format)) return half_body(components(format));
+  if (is_small_float(format)) return half_body(components(format), type, rounding);
   switch (dsl::info(format).numeric) {
     case Numeric::unorm:
       return per_component(format, type, "rg_to_unorm");
@@ -110,13 +119,14 @@ std::string conversion_call(Format format, const std::string& name) {
   return loses_nothing(format) ? "" : name + " = " + function_name(format) + "(" + name + ");";
 }
 
-std::string conversion_text(Format format) {
+std::string conversion_text(Format format, HalfRounding rounding) {
   if (loses_nothing(format)) return "";
   const std::string type = texel_type(format, dsl::aspect_color);
-  const std::string guard = std::string("RG_HELPER_") + (format == Format::r11g11b10f ? "UF" : std::to_string(static_cast<int>(dsl::info(format).numeric)));
-  const std::string helpers = format == Format::r11g11b10f ? small_floats() : helper(format);
+  const bool floats = format == Format::r11g11b10f || is_small_float(format);
+  const std::string guard = std::string("RG_HELPER_") + (floats ? "FLOATS" : std::to_string(static_cast<int>(dsl::info(format).numeric)));
+  const std::string helpers = floats ? small_floats() : helper(format);
   const std::string once = helpers.empty() ? "" : "#ifndef " + guard + "\n#define " + guard + "\n" + helpers + "#endif\n";
-  return once + type + " " + function_name(format) + "(" + type + " v) { " + body(format, type) + " }\n";
+  return once + type + " " + function_name(format) + "(" + type + " v) { " + body(format, type, rounding) + " }\n";
 }
 
 }  // namespace rg::compiler

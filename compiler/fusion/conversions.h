@@ -15,7 +15,9 @@ std::string texel_type(dsl::Format format, uint32_t aspects);
 
 // `name = rg_to_r16f(name);` with texel_type(format), or empty where nothing is lost.
 std::string conversion_call(dsl::Format format, const std::string& name);
-// The functions that conversion_call names, for `format`; empty where it is.
-std::string conversion_text(dsl::Format format);
+// How images of 16-bit floats round what is stored in them. Vulkan leaves it to the device: lavapipe cuts off, GPUs round to the nearest.
+enum class HalfRounding : uint8_t { zero, nearest };
+// The functions that conversion_call names, for `format`; empty where it is. Floats of 10 and 11 bits are cut off.
+std::string conversion_text(dsl::Format format, HalfRounding rounding);
 
 }  // namespace rg::compiler

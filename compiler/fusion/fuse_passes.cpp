@@ -236,7 +236,7 @@ class Fuser {
       plain.fusion = {};
       return plain;
     }
-    dsl::Pass kernel = write_kernel(program_, graph_, {pass.name, {{id, blocks_.source(pass)}}, {}, false});
+    dsl::Pass kernel = write_kernel(program_, graph_, {pass.name, {{id, blocks_.source(pass)}}, {}});
     kernel.after = pass.after;
     if (planned != nullptr) {
       dsl::Guard::Term term = *planned->fusion->when;
@@ -247,7 +247,7 @@ class Fuser {
   }
 
   dsl::Pass fused(const Planned& planned) {
-    KernelOrder order{planned.name, {}, planned.dropped, planned.fusion->unrounded};
+    KernelOrder order{planned.name, {}, planned.dropped, planned.fusion->unrounded, options_.halves};
     for (const PassId member : planned.group) order.members.push_back({member, blocks_.source(graph_.passes[member])});
     dsl::Pass kernel = write_kernel(program_, graph_, order);
     kernel.span = planned.fusion->span;

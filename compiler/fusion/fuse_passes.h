@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/fusion/conversions.h"
 #include "compiler/shaders/shaders.h"
 #include "dsl/diagnostics.h"
 #include "dsl/program.h"
@@ -41,6 +42,7 @@ struct FusionRefusal {
 };
 struct FusionOptions {
   bool fuse = true;  // false: every block is a kernel of its own
+  HalfRounding halves = HalfRounding::zero;
 };
 struct FusionResult {
   dsl::Program program;  // without blocks

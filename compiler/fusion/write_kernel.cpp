@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "compiler/fusion/conversions.h"
 #include "compiler/shaders/glsl_types.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/format_table.h"
@@ -402,7 +401,7 @@ std::string conversions(const Parts& at) {
   for (const Cell& cell : at.cells)
     if (cell.store && !is_struct(resource_of(at, cell.access))) formats.insert(dsl::seen_format(resource_of(at, cell.access), cell.access));
   std::string text;
-  for (const dsl::Format format : formats) text += conversion_text(format);
+  for (const dsl::Format format : formats) text += conversion_text(format, at.order.halves);
   return text;
 }
 

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/fusion/conversions.h"
 #include "compiler/fusion/glsl_text.h"
 #include "dsl/program.h"
 
@@ -38,6 +39,7 @@ struct KernelOrder {
   std::vector<KernelMember> members;   // in order; passes with blocks over one domain
   std::set<dsl::ResourceId> dropped;   // written first by a member, read by members only: stay in registers
   bool unrounded = false;              // dropped values keep all their bits
+  HalfRounding halves = HalfRounding::zero;
 };
 // An ordinary compute pass with the shader's text in it. Everything but name, accesses, parameters, features, dispatch and shader is the first
 // member's.

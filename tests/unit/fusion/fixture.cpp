@@ -13,13 +13,14 @@ namespace rg::test {
 std::string Compiled::messages() const {
   std::string text;
   for (const dsl::Diagnostic& diagnostic : diagnostics.rows()) {
+    if (dsl::row(diagnostic.kind).severity == dsl::Severity::warning) continue;  // of what a small program leaves unused
     text += std::string(dsl::row(diagnostic.kind).code) + " " + diagnostic.message() + "\n";
     for (const dsl::Diagnostic& note : diagnostic.notes) text += "  " + note.message() + "\n";
   }
   return text;
 }
 
-Compiled compile_files(const Files& files, bool fuse, const std::vector<std::string>& fixed) {
+Compiled compile_files(const Files& files, bool fuse, const std::vector<std::string>& fixed, compiler::CompileOptions options) {
   const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
     const auto file = files.find(path);
     if (file != files.end()) return file->second;
@@ -27,7 +28,6 @@ Compiled compile_files(const Files& files, bool fuse, const std::vector<std::str
     return std::nullopt;
   };
   Compiled compiled;
-  compiler::CompileOptions options;
   options.until = compiler::Until::plans;
   options.workers = 1;
   options.fuse = fuse;

@@ -21,7 +21,7 @@ struct Compiled {
   std::string messages() const;
   std::string text() const { return dsl::print(diagnostics, result.sources, false); }
 };
-Compiled compile_files(const Files& files, bool fuse = true, const std::vector<std::string>& fixed = {});
+Compiled compile_files(const Files& files, bool fuse = true, const std::vector<std::string>& fixed = {}, compiler::CompileOptions options = {});
 
 // The checker on every plan, and on what became of the blocks; what it finds are failures.
 void prove(const compiler::CompileResult& result);

@@ -106,6 +106,20 @@ TEST(Conversions, AreThoseOfAStoreAndALoad) {
     }
 }
 
+// What GPUs do; lavapipe does it where a shader packs halves.
+TEST(Conversions, OfHalvesMayRoundToTheNearest) {
+  Files files = format_files({"r16f", 'f', 1}, true), packed = files;
+  packed["show.glsl"] = "void element(ivec2 at) { shown.v = uvec4(floatBitsToUint(unpackHalf2x16(packHalf2x16(vec2(value, 0.0))).x), 0u, 0u, 0u); }\n";
+  std::string& text = packed["main.rg"];
+  text.replace(text.find("value : r16f"), 12, "value : r32f");
+  compiler::CompileOptions options;
+  options.halves = compiler::HalfRounding::nearest;
+  const Compiled rounded = compile_files(files, true, {}, options), reference = compile_files(packed, false);
+  ASSERT_FALSE(rounded.diagnostics.has_errors()) << rounded.text();
+  ASSERT_FALSE(reference.diagnostics.has_errors()) << reference.text();
+  expect_equal({run(rounded.result, "shown"), run(reference.result, "shown"), 0}, "nearest");
+}
+
 TEST(Conversions, AreLeftOutWhereTheProgramSaysSo) {
   Files files = format_files({"r8", 'f', 1}, true);
   std::string& text = files["main.rg"];
@@ -190,7 +204,7 @@ graph g() {
   image source : rgba32f size
   image total  : rgba32f size
   image kept   : rgba32f size output
-  buffer shown : Four[size.area * size.z] readback
+  buffer shown : Four[size.area] readback
   fuse lines {
     pass make : compute { block "make.glsl"  write source as element  dispatch over size }
     pass sum : compute { block "sum.glsl" )" + lines + R"(  read source as element  write total as element  dispatch over size }
