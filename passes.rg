@@ -49,14 +49,32 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   buffer sun_draws   : DrawArguments[MAX_INSTANCES]
   buffer cull_counts : u32[4] readback
 
-  pass mesh_cull : compute queue compute may {
-    shader "passes/geometry/mesh_cull.comp" group 64 1 1
-    params camera
-    read   scene.instances as storage
-    write  world_draws as storage
-    write  sun_draws as storage
-    atomic cull_counts as storage clear 0
-    dispatch over MAX_INSTANCES
+  buffer candidates : Candidate[MAX_INSTANCES]
+
+  fuse mesh_cull {
+    pass mesh_candidates : compute queue compute may {
+      block  "passes/geometry/mesh_candidates.glsl"
+      params camera
+      read   scene.instances as storage
+      write  candidate = candidates as element
+      dispatch over MAX_INSTANCES
+    }
+    pass mesh_cull_world : compute queue compute may {
+      block  "passes/geometry/mesh_cull_world.glsl"
+      params camera
+      read   candidate = candidates as element
+      write  world_draw = world_draws as element
+      atomic cull_counts as storage clear 0
+      dispatch over MAX_INSTANCES
+    }
+    pass mesh_cull_sun : compute queue compute may {
+      block  "passes/geometry/mesh_cull_sun.glsl"
+      params camera
+      read   candidate = candidates as element
+      write  sun_draw = sun_draws as element
+      atomic cull_counts as storage
+      dispatch over MAX_INSTANCES
+    }
   }
 
   // ---- sun shadow -------------------------------------------------------------------------------------------------
@@ -107,7 +125,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   image scattered     : r11g11b10f froxels  // light of all fog in front of a place
   image transmittance : r16f froxels        // share of the light from behind it that comes through
 
-  use froxel_fog(camera, fog, scene.lights, scene.fog_volumes, scene.albedo_maps, sun_shadow, lamp_shadow, scattered, transmittance)
+  use froxel_fog = merged_fog(camera, fog, scene.lights, scene.fog_volumes, scene.albedo_maps, sun_shadow, lamp_shadow, scattered, transmittance)
 
   // ---- depth ------------------------------------------------------------------------------------------------------
   image depth : d32f view

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "compiler/check_queues.h"
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
+#include "compiler/fusion/fusion_figures.h"
 #include "compiler/judge.h"
 #include "compiler/profiles.h"
 #include "compiler/variant_space.h"
@@ -61,6 +63,17 @@ std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const d
   return resolve_spectra(result.program, shader_reader(root_path, read), replaced, result.sources, spectrum_options, diagnostics);
 }
 
+// Gives the files that blocks were read from.
+std::vector<std::string> make_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, CompileResult& result,
+                                      dsl::Diagnostics& diagnostics) {
+  const ReadFile reader = shader_reader(root_path, read);
+  FusionResult fusion = fuse_passes(result.program, reader, result.sources, {options.fuse, options.halves}, diagnostics);
+  result.written = std::exchange(result.program, std::move(fusion.program));
+  result.fused = std::move(fusion.kernels);
+  result.not_fused = std::move(fusion.refusals);
+  return std::move(fusion.read_files);
+}
+
 // What the cache went through, reported where it is not as it should be.
 ShaderCache::Counts settle(const ShaderCache& cache, dsl::Diagnostics& diagnostics) {
   const ShaderCache::Counts counts = cache.counts();
@@ -98,7 +111,8 @@ void run_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::G
               diagnostics);
 }
 
-std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph& graph, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph& graph, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  const dsl::Program& program = result.program;
   PlanOptions plan_options = options.plan;
   if (!options.profile.empty()) plan_options.measured_us = measured_times(program, graph.graph, options.profile, options.profile_text, diagnostics);
   std::vector<FramePlan> plans;
@@ -109,6 +123,8 @@ std::vector<FramePlan> plan_all(const dsl::Program& program, const CompiledGraph
     plan.plan.variant_count = static_cast<uint32_t>(graph.configurations.size());
     plan.plan.variant_name = intern(configuration_name(program, configuration));
     attach_shaders(plan.plan, program, graph.graph, graph.shaders, plans.size());
+    for (FusionNote& note : fusion_notes(result.written, result.fused, result.not_fused, graph.graph))
+      plan.decisions.push_back({std::move(note.subject), std::move(note.what), std::move(note.reason)});
     plans.push_back(std::move(plan));
   }
   return plans;
@@ -166,6 +182,10 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (diagnostics.has_errors()) return result;
   result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
 
+  // Blocks become kernels, one by one or several together.
+  const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
+  if (diagnostics.has_errors()) return result;
+
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
   if (options.list_tasks || options.shards > 0) {
     for (size_t g = 0; g < result.program.graphs.size(); ++g)
@@ -177,6 +197,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
     result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics));
   if (cache) result.cache = settle(*cache, diagnostics);
   result.read_files = paths_read(root_path, result, profiles);
+  for (const std::string& path : block_files) result.read_files.push_back(in_folder_of(root_path, path));
 
   // The gate: later phases cannot fail on user input; what they find is judged at the end.
   if (diagnostics.has_errors()) return result;
@@ -194,7 +215,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (diagnostics.has_errors()) return result;
 
   // Program to plans, one a configuration.
-  for (CompiledGraph& graph : result.graphs) graph.plans = plan_all(result.program, graph, options, diagnostics);
+  for (CompiledGraph& graph : result.graphs) graph.plans = plan_all(result, graph, options, diagnostics);
 
   // What the program asserts about its plans.
   for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/codegen/generate.h"
+#include "compiler/fusion/fuse_passes.h"
 #include "compiler/plan_frame.h"
 #include "compiler/shaders/cache.h"
 #include "compiler/shaders/shaders.h"
@@ -34,6 +35,8 @@ struct CompileOptions {
   dsl::ReadSource read_profile;                    // reads that file; empty: the reader of the sources
   std::optional<uint32_t> spectrum_modes;          // replaces their numbers of kernels
   std::vector<std::string> forced_features;        // of spectra: on in every mask
+  bool fuse = true;                                // false: every block is a kernel of its own
+  HalfRounding halves = HalfRounding::zero;        // of images on the devices this is for; see fusion/conversions.h
   std::string command;                             // as it shall stand in the banner of generated files
   std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
 };
@@ -51,6 +54,9 @@ struct CompileResult {
   dsl::SourceFiles sources;             // sources[0] is the root file; diagnostics point into them
   dsl::Program program;                 // spectra expanded and every Access::stages resolved, from Until::shaders on
   std::vector<SpectrumChoice> spectra;  // what serves which masks, and why
+  dsl::Program written;                 // the program before its blocks became kernels
+  std::vector<FusedKernel> fused;
+  std::vector<FusionRefusal> not_fused;
   std::vector<CompiledGraph> graphs;    // in order of declaration
   std::vector<GeneratedFile> files;     // paths relative to the output folder
   std::vector<std::string> read_files;  // sources and shader files, for a depfile

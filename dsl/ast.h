@@ -211,7 +211,10 @@ struct ShaderStatement {
   };
   std::vector<Path> paths;
   std::vector<Expr> group;
-  bool fullscreen = false;
+  bool fullscreen = false, block = false;
+  Name scan;  // of a block: the axis it is walked along; empty: none
+  Boxed<TypeName> carry;
+  bool associative = false;
   Span span;
 };
 struct DispatchStatement {
@@ -316,8 +319,15 @@ struct Use {  // `use blur(hdr, inout color)`, `use left = blur(hdr)`, `use eye[
   std::vector<Expr> arguments;
   Span span;
 };
+struct Fuse {  // `fuse fog may unrounded when merged { pass ... }`
+  Name name;
+  bool may = false, unrounded = false;
+  Boxed<FeatureTerm> term;
+  std::vector<Item> body;
+  Span span;
+};
 struct Item {
-  std::variant<ResourceDeclaration, PassDeclaration, BundleDeclaration, For, When, IfHost, Use, Assertion> node;
+  std::variant<ResourceDeclaration, PassDeclaration, BundleDeclaration, For, When, IfHost, Use, Assertion, Fuse> node;
 };
 struct Parameter {
   enum class Kind : uint8_t { params, surface, interface, image, buffer, constant } kind = Kind::interface;

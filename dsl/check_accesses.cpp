@@ -96,10 +96,18 @@ Role default_role(const Builder& at) {
 void report_unknown_role(Builder& at, const ast::Name& word) {
   Diagnostic diagnostic(DiagnosticKind::UnknownRole, word.span, {std::string(word.text)});
   const std::string guess =
-      closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "host"});
+      closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "host", "element"});
   if (!guess.empty()) diagnostic.fix(word.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.ok = false;
+}
+
+// What is only read need not be storage: any image can be fetched from.
+void read_element(Builder& at) {
+  at.access.element = true;
+  const bool fetched = at.node.verb == Verb::read && at.resource->kind == ResourceKind::image;
+  at.access.role = fetched ? Role::sampled : Role::storage;
+  if (at.node.verb == Verb::atomic) fail(at, DiagnosticKind::RoleDirection, at.node.usage->role.span, {word_of(at.node.verb), "element"});
 }
 
 void read_role(Builder& at) {
@@ -112,6 +120,7 @@ void read_role(Builder& at) {
     return;
   }
   const ast::Name& word = at.node.usage->role;
+  if (word.text == "element") return read_element(at);
   const auto role = find_role(word.text);
   if (!role) return word.empty() ? void(at.ok = false) : report_unknown_role(at, word);
   at.access.role = *role;

@@ -260,6 +260,16 @@ void visit(Walker at, const ast::Use& node) {
   note_since(at.checker, told, node.span, std::string(symbol.name.text));
 }
 
+void visit(Walker at, const ast::Fuse& node) {
+  if (at.phase == Phase::resources) return walk(at, node.body);
+  const FusionId outer = at.scope.fusion;
+  at.scope.fusion = declare_fusion(at.checker, at.scope, node);
+  if (!at.scope.fusion.valid()) at.scope.incomplete = true;
+  walk(at, node.body);
+  if (at.scope.fusion.valid()) finish_fusion(at.checker, at.scope, at.scope.fusion);
+  at.scope.fusion = outer;
+}
+
 double unit_of(std::string_view unit) {
   constexpr double kKibi = 1024.0, kKilo = 1000.0;
   if (unit == "KiB") return kKibi;

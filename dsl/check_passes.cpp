@@ -13,7 +13,7 @@ struct Builder {
   const ast::PassDeclaration& node;
   PassScope out;
   bool has_draw = false, has_dispatch = false, fullscreen = false;
-  Span shader_span, draw_span;
+  Span shader_span, draw_span, dispatch_span;
   std::vector<const ast::BundleDeclaration*> open = {};  // bundles that are being read
 };
 
@@ -70,6 +70,10 @@ void read_group(Builder& at, const ast::ShaderStatement& node) {
 
 void visit(Builder& at, const ast::ShaderStatement& node) {
   at.shader_span = node.span;
+  if (node.block) {
+    at.out.dropped |= !read_block(at.checker, at.scope, at.out.pass, node);
+    return read_group(at, node);
+  }
   for (const auto& path : node.paths) add_shader(at, path);
   read_group(at, node);
   if (!node.fullscreen) return;
@@ -111,6 +115,7 @@ void visit(Builder& at, const ast::DispatchStatement& node) {
   if (at.out.pass.kind != PassKind::compute) return fail(at, DiagnosticKind::DispatchOutsideCompute, node.span);
   if (at.has_dispatch) return fail(at, DiagnosticKind::RepeatedWork, node.span, {"dispatch"});
   at.has_dispatch = true;
+  at.dispatch_span = node.span;
   constexpr uint32_t kDispatchBytes = 12;  // VkDispatchIndirectCommand
   Dispatch& dispatch = at.out.pass.dispatch;
   const std::string_view how = node.how.text;
@@ -301,6 +306,7 @@ void read_heading(Builder& at) {
   pass.span = at.node.span;
   pass.guard = at.scope.guard;
   pass.conditions = at.scope.conditions;
+  pass.fusion = at.scope.fusion;
 }
 
 bool has_stage(const Pass& pass, Stage stage) {
@@ -430,7 +436,7 @@ void drop_pass(Builder& at) {
 }  // namespace
 
 void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaration& declaration) {
-  Builder at{checker, scope, declaration, {}, false, false, false, {}, {}};
+  Builder at{checker, scope, declaration, {}, false, false, false, {}, {}, {}};
   const auto name = declaration.name.empty() ? std::nullopt : indexed_name(checker, scope, declaration.name, declaration.index);
   if (!name) return void(scope.incomplete = true);
   at.out.pass.name = *name;
@@ -449,6 +455,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   check_pass_rules(checker, scope.graph, at.out.pass);
   note_told(at, told);
   if (!check_spectrum_pass(checker, scope.graph, at.out.pass)) return drop_pass(at);
+  if (!check_block(checker, scope, at.out.pass, at.dispatch_span)) return drop_pass(at);
   add_passes(at);
 }
 

@@ -120,6 +120,7 @@ struct GraphScope {
   std::vector<Binding> bindings;  // innermost last
   Guard guard;
   std::vector<ConditionId> conditions;
+  FusionId fusion;                // the `fuse` around
   std::unordered_map<std::string, ResourceId> resources;
   std::unordered_map<std::string, PassId> passes;
   std::unordered_map<std::string, ParamsId> params;
@@ -230,6 +231,14 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
 bool add_features(Checker& checker, const GraphScope& scope, Pass& pass, const ast::FeaturesStatement& statement);
 bool add_spectrum(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement);
 bool check_spectrum_pass(Checker& checker, const Graph& graph, const Pass& pass);
+// ---- check_blocks.cpp
+// `block "x.glsl" scan z Stretch`: fills Pass::block. False after a report.
+bool read_block(Checker& checker, GraphScope& scope, Pass& pass, const ast::ShaderStatement& statement);
+// What a block may be and may touch, once its pass is read. False after a report.
+bool check_block(Checker& checker, GraphScope& scope, Pass& pass, Span dispatch);
+// `fuse NAME ...`: none after a report. `finish_fusion` looks at what stands in it.
+FusionId declare_fusion(Checker& checker, GraphScope& scope, const ast::Fuse& node);
+void finish_fusion(Checker& checker, const GraphScope& scope, FusionId fusion);
 void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
 void merge_reads_and_writes(Pass& pass);
 void name_hidden_accesses(Pass& pass);

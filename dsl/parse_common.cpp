@@ -10,11 +10,11 @@ using Words = std::initializer_list<std::string_view>;
 
 constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "private",   "const", "extent", "struct",    "interface",
                                               "sampler", "state",  "feature", "condition", "set",   "graph",  "technique", "spectrum"};
-constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "assert", "warn"};
+constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn"};
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
                                             "clear",  "fill",   "host",   "after",    "keep",  "layout", "fullscreen", "features", "spectrum",
-                                            "with"};
+                                            "with",   "block",  "multiview"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {

@@ -284,6 +284,19 @@ Use parse_use(Parser& parser) {
   return use;
 }
 
+Fuse parse_fuse(Parser& parser) {
+  Fuse fuse;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  fuse.name = parser.expect_name("the name of the kernel");
+  if (!parser.silent) fuse.may = parser.accept_word("may");
+  if (!parser.silent) fuse.unrounded = parser.accept_word("unrounded");
+  if (!parser.silent && parser.accept_word("when")) fuse.term = parse_feature_term(parser);
+  fuse.span = parser.since(begin);
+  parse_items(parser, fuse.body);
+  return fuse;
+}
+
 void parse_comparison(Parser& parser, Assertion& assertion) {
   constexpr TokenKind kComparisons[] = {TokenKind::less_equal, TokenKind::less, TokenKind::equal_equal, TokenKind::greater, TokenKind::greater_equal};
   for (const TokenKind kind : kComparisons) {
@@ -330,7 +343,7 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
 void complain_about_item(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("`image`, `buffer`, `pass` or another item of a graph");
   Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "assert", "warn"});
+  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn"});
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -351,6 +364,8 @@ void parse_item(Parser& parser, std::vector<Item>& items) {
     items.push_back({parse_if(parser)});
   else if (word == "use")
     items.push_back({parse_use(parser)});
+  else if (word == "fuse")
+    items.push_back({parse_fuse(parser)});
   else if (word == "assert" || word == "warn")
     items.push_back({parse_assertion(parser)});
   else if (!rejoin_pass(parser, items))

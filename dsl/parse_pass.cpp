@@ -66,10 +66,20 @@ ast::AccessStatement parse_access(Parser& parser, ast::Verb verb) {
   return access;
 }
 
+// `scan z Stretch associative`
+void parse_scan(Parser& parser, ast::ShaderStatement& shader) {
+  parser.take();
+  shader.scan = parser.expect_one_of("`x`, `y` or `z`", {"x", "y", "z"});
+  if (!parser.silent && parser.is(TokenKind::identifier) && !parser.next_begins()) shader.carry = parse_type(parser);
+  if (!parser.silent && !shader.carry) parser.expected("the type of what is carried along");
+  if (!parser.silent) shader.associative = parser.accept_word("associative");
+}
+
 ast::ShaderStatement parse_shader(Parser& parser) {
   ast::ShaderStatement shader;
   const uint32_t begin = parser.peek().begin;
   shader.fullscreen = parser.is_word("fullscreen");
+  shader.block = parser.is_word("block");
   parser.take();
   do {
     if (!parser.is(TokenKind::string)) {
@@ -83,11 +93,12 @@ ast::ShaderStatement parse_shader(Parser& parser) {
   } while (parser.is(TokenKind::string));
   if (!parser.silent && parser.accept_word("group"))
     for (int axis = 0; axis < 3 && parser.is(TokenKind::integer) + parser.is(TokenKind::identifier) + parser.is(TokenKind::left_paren) > 0; ++axis) {
-      if (axis > 0 && parser.peek().starts_line) break;
+      if (axis > 0 && (parser.peek().starts_line || (shader.block && parser.is_word("scan")))) break;
       shader.group.push_back(parse_expression(parser, "a group size"));
     }
+  if (!parser.silent && shader.block && parser.is_word("scan")) parse_scan(parser, shader);
   shader.span = parser.since(begin);
-  complain_about_rest(parser, {"group"});
+  complain_about_rest(parser, {"group", "scan", "associative"});
   return shader;
 }
 
@@ -232,7 +243,7 @@ bool is_transfer_update(const Parser& parser, const PassDeclaration& pass) {
 
 ast::Statement parse_other(Parser& parser) {
   const std::string_view word = parser.word();
-  if (word == "shader" || word == "fullscreen") return parse_shader(parser);
+  if (word == "shader" || word == "fullscreen" || word == "block") return parse_shader(parser);
   if (word == "dispatch") return parse_dispatch(parser);
   if (word == "draw") return parse_draw(parser);
   if (word == "params") return parse_params(parser);
@@ -248,7 +259,7 @@ void complain_about_statement(Parser& parser) {
   static const std::vector<std::string_view> kWords = {"read",   "write",  "update",     "atomic", "color",    "depth", "stencil", "resolve",
                                                        "params", "shader", "fullscreen", "state",  "dispatch", "draw",  "bind",    "copy",
                                                        "blit",   "clear",  "fill",       "host",   "after",    "keep",  "features", "spectrum",
-                                                       "with"};
+                                                       "with",   "block",  "multiview"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
   const std::string guess = closest(parser.word(), kWords);
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);

@@ -163,6 +163,7 @@ void print_access(Printer& at, const Graph& graph, size_t index, const Access& a
   if (access.stages) text += " in " + stages_text(access.stages);
   if (access.clear) text += " clear " + clear_text(*access.clear);
   if (access.blend.enabled) text += blend_text(access.blend);
+  if (access.element) text += " element";
   if (access.covers) text += " covers";
   if (access.disjoint) text += " disjoint";
   at.line("{} called {}", text, access.name);
@@ -211,9 +212,17 @@ std::string heading(const Program& program, const Graph& graph, const Pass& pass
   return text + guard_text(program, pass.guard);
 }
 
+std::string block_text(const Program& program, const Block& block) {
+  std::string text = fmt::format("    block over {} {}", block.axes, block.axes == 1 ? "axis" : "axes");
+  if (block.scan != kAll) text += fmt::format(" scan {} {}{}", "xyz"[block.scan], print_type(program, block.carry), block.associative ? " associative" : "");
+  return text;
+}
+
 void print_pass(Printer& at, const Graph& graph, size_t id, const Pass& pass) {
   at.line("  p{} {}: {} ({})", id, pass.name, heading(at.program, graph, pass), pass.module);
   for (const Shader& shader : pass.shaders) at.line("    shader {} {}", stages_text(shader.stage), shader.path);
+  if (pass.block) at.line("{}", block_text(at.program, *pass.block));
+  if (pass.fusion.valid()) at.line("    fuse {}", graph.fusions[pass.fusion].name);
   for (const ShaderFeature& feature : pass.features)
     at.line("    feature {}{}", feature.name, feature.feature.valid() ? "" : fmt::format(" = {}", feature.value));
   if (pass.spectrum.valid())
@@ -230,6 +239,8 @@ void print_graph(Printer& at, const Graph& graph) {
     at.line("  params {}: {}{}", params.name, at.program.structs[params.type].name,
             params.pass.valid() ? " of " + graph.passes[params.pass].name : "");
   for (size_t i = 0; i < graph.resources.size(); ++i) print_resource(at, i, graph.resources.rows[i]);
+  for (const Fusion& fusion : graph.fusions)
+    at.line("  fuse {}{}{}{}", fusion.name, fusion.may ? " may" : "", fusion.unrounded ? " unrounded" : "", fusion.when ? guard_text(at.program, {{*fusion.when}}) : "");
   for (size_t i = 0; i < graph.passes.size(); ++i) print_pass(at, graph, i, graph.passes.rows[i]);
   for (const Assertion& assertion : graph.assertions)
     at.line("  {} {} {} {}", assertion.is_error ? "assert" : "warn", assertion.fact, assertion.comparison,

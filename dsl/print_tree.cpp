@@ -94,9 +94,10 @@ std::string access_text(const AccessStatement& node) {
 void visit(Printer& at, const AccessStatement& node) { at.line(access_text(node)); }
 
 void visit(Printer& at, const ShaderStatement& node) {
-  std::string out = node.fullscreen ? "fullscreen" : "shader";
+  std::string out = node.fullscreen ? "fullscreen" : node.block ? "block" : "shader";
   for (const auto& path : node.paths) out += " \"" + std::string(path.text) + "\"";
   for (const ast::Expr& size : node.group) out += " " + text(size);
+  if (!node.scan.empty()) out += " scan " + text(node.scan) + (node.carry ? " " + text(*node.carry) : "") + (node.associative ? " associative" : "");
   at.line(out);
 }
 
@@ -181,6 +182,11 @@ void visit(Printer& at, const Use& node) {
   for (size_t i = 0; i < node.arguments.size(); ++i)
     out += (i < node.directions.size() && !node.directions[i].empty() ? " " + text(node.directions[i]) : "") + " " + text(node.arguments[i]);
   at.line(out);
+}
+
+void visit(Printer& at, const Fuse& node) {
+  at.line("fuse " + text(node.name) + (node.may ? " may" : "") + (node.unrounded ? " unrounded" : "") + (node.term ? " when " + term_text(*node.term) : ""));
+  print_items(at, node.body);
 }
 
 void visit(Printer& at, const ast::Assertion& node) { at.line(std::string(node.text)); }

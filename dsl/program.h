@@ -27,6 +27,7 @@ using ResourceId = Id<struct ResourceTag>;  // indexes Graph::resources
 using PassId = Id<struct PassTag>;          // indexes Graph::passes
 using SpectrumId = Id<struct SpectrumTag>;
 using ParamsId = Id<struct ParamsTag>;      // indexes Graph::params
+using FusionId = Id<struct FusionTag>;      // indexes Graph::fusions
 
 // ---- values known when the program runs -------------------------------------------------------------------------
 
@@ -240,6 +241,7 @@ struct Access {
   bool disjoint = false;   // writers declared to touch different elements
   Span span;
   Format view = Format::none;  // shaders and attachments see the image through this format of the same size; none: its own
+  bool element = false;        // `as element`: a block touches the element it runs for and no other
   friend bool operator==(const Access&, const Access&) = default;
 };
 
@@ -309,6 +311,16 @@ struct ShaderFeature {
   friend bool operator==(const ShaderFeature&, const ShaderFeature&) = default;
 };
 
+// A shader written for one element at a time, see compiler/fusion/write_kernel.h. The elements are those of `dispatch over`.
+struct Block {
+  uint32_t axes = 1;        // of the domain
+  uint32_t scan = kAll;     // axis it walks near to far, carrying `carry`; kAll: elements know nothing of each other
+  Type carry;
+  bool associative = false; // stretches of the line may be joined in any grouping
+  bool sized = false;       // `group` was written, it is not the default
+  friend bool operator==(const Block&, const Block&) = default;
+};
+
 struct Pass {
   std::string name;        // unique in the graph; loop instances are `bloom_down[3]`
   std::string module;
@@ -332,6 +344,8 @@ struct Pass {
   SpectrumId spectrum;     // `spectrum S by MASKS`: one kernel a mode, see compiler/spectrum/expand_spectra.h
   uint32_t masks = kAll;   // index into accesses: a u32 a group, its bits the spectrum's features
   std::vector<std::string> interface_lines;  // GLSL behind the generated interface, from the compiler itself
+  std::optional<Block> block;  // `block "x.glsl"`: the shader is one; compute
+  FusionId fusion;         // the `fuse` it stands in
   Span span;               // of the pass name
   friend bool operator==(const Pass&, const Pass&) = default;
 };
@@ -348,6 +362,16 @@ struct Assertion {  // `assert memory(1920x1080) <= 170 MiB`
   friend bool operator==(const Assertion&, const Assertion&) = default;
 };
 
+// `fuse NAME may unrounded when TERM { ... }`: the blocks of its passes become one kernel, see compiler/fusion/fuse_passes.h
+struct Fusion {
+  std::string name;                 // of the pass that the kernel becomes
+  bool may = false;                 // what cannot be fused stays as it is
+  bool unrounded = false;           // values that stay in registers are not converted to their formats
+  std::optional<Guard::Term> when;  // fused where it holds
+  Span span;
+  friend bool operator==(const Fusion&, const Fusion&) = default;
+};
+
 struct EngineSet {  // `set materials 2 { texture2D[16] albedo  sampler smooth }`: descriptors the engine owns
   std::string name;
   uint32_t set = 0;
@@ -362,6 +386,7 @@ struct Graph {
   Table<PassId, Pass> passes;
   Table<ParamsId, Params> params;
   std::vector<Assertion> assertions;
+  Table<FusionId, Fusion> fusions;
   Span span;
   friend bool operator==(const Graph&, const Graph&) = default;
 };

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "shaders/passes_geometry_mesh_cull.comp.spv.h"
+#include "shaders/rgc_mesh_cull.comp.spv.h"
 #include "shaders/passes_geometry_sun_world.vert.spv.h"
 #include "shaders/passes_geometry_lamp_cull.comp.spv.h"
 #include "shaders/passes_geometry_depth_world.vert.spv.h"
@@ -14,9 +14,7 @@
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
 #include "shaders/passes_fog_fog_cull.comp.spv.h"
-#include "shaders/passes_fog_fog_inject.comp.spv.h"
-#include "shaders/passes_fog_fog_light.comp.spv.h"
-#include "shaders/passes_fog_fog_integrate.comp.spv.h"
+#include "shaders/rgc_froxel_fog.merged.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
 #include "shaders/passes_culling_zbin_build.comp.spv.h"
@@ -150,10 +148,10 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::ceil_div, .a = 42, .b = 94},  // 100
     {.op = ExprOp::ceil_div, .a = 44, .b = 94},  // 101
     {.op = ExprOp::ceil_div, .a = 45, .b = 94},  // 102
-    {.op = ExprOp::ceil_div, .a = 46, .b = 94},  // 103
-    {.op = ExprOp::ceil_div, .a = 47, .b = 94},  // 104
-    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 105
-    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 106
+    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 103
+    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 104
+    {.op = ExprOp::ceil_div, .a = 46, .b = 94},  // 105
+    {.op = ExprOp::ceil_div, .a = 47, .b = 94},  // 106
     {.op = ExprOp::ceil_div, .a = 49, .b = 94},  // 107
     {.op = ExprOp::ceil_div, .a = 50, .b = 94},  // 108
     {.op = ExprOp::ceil_div, .a = 52, .b = 94},  // 109
@@ -184,10 +182,10 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::constant, .value = 49152},  // 134
     {.op = ExprOp::constant, .value = 32768},  // 135
     {.op = ExprOp::constant, .value = 81920},  // 136
-    {.op = ExprOp::constant, .value = 114688},  // 137
-    {.op = ExprOp::constant, .value = 16384},  // 138
+    {.op = ExprOp::constant, .value = 16384},  // 137
+    {.op = ExprOp::constant, .value = 98304},  // 138
     {.op = ExprOp::constant, .value = 65536},  // 139
-    {.op = ExprOp::constant, .value = 98304},  // 140
+    {.op = ExprOp::constant, .value = 114688},  // 140
 };
 
 constexpr Extent kExtents[] = {
@@ -196,113 +194,107 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
-     .layout = 726144499, .import_slot = 0, .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128, .import_slot = 0,
+     .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
     {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 71, .stride = 80,
-     .layout = 2864363377, .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
+     .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
     {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
-     .layout = 3875358314, .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
+     .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
     {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
-     .layout = 3506255352, .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
-     .layout = 2983543026, .import_slot = 4, .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4,
-     .layout = 1948121759, .import_slot = 5, .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32,
-     .layout = 1832413415, .import_slot = 6, .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
+     .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48, .import_slot = 4,
+     .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4, .import_slot = 5,
+     .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32, .import_slot = 6,
+     .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
     {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 75, .stride = 4,
-     .layout = 1948121759, .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
+     .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
      .estimated_alignment = 256, .estimated_offset = 18153472, .line = 21, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4, .layout = 1948121759,
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
+     .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4,
      .estimated_bytes = 256, .line = 23, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
-     .estimated_alignment = 65536, .line = 36, .file = "passes.rg"},
-    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .estimated_offset = 12992512, .line = 59, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 54, .file = "passes.rg"},
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .estimated_bytes = 131072,
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 77, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
-     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 60, .file = "passes.rg"},
+     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 78, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 86, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 104, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 87, .file = "passes.rg"},
-    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 2359296, .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 100, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 101, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.extinction", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 102, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 105, .file = "passes.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
+     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 117, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 118, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
-     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 103,
+     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 122,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 92, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 110, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 114, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 132, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 10518528, .line = 133, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 18988288, .line = 134, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 10551296, .line = 135, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 18284544, .line = 136, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 18514944, .line = 137, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
-     .estimated_alignment = 256, .estimated_offset = 18745344, .line = 138, .file = "passes.rg"},
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 132, .file = "passes.rg"},
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
+     .estimated_offset = 10485760, .line = 150, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
+     .estimated_offset = 10518528, .line = 151, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
+     .estimated_offset = 18988288, .line = 152, .file = "passes.rg"},
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
+     .estimated_offset = 10551296, .line = 153, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+     .estimated_alignment = 256, .estimated_offset = 18284544, .line = 154, .file = "passes.rg"},
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
+     .estimated_alignment = 256, .estimated_offset = 18514944, .line = 155, .file = "passes.rg"},
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
+     .estimated_alignment = 256, .estimated_offset = 18745344, .line = 156, .file = "passes.rg"},
     {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 89, .stride = 4,
-     .layout = 1948121759, .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
+     .estimated_bytes = 3840, .line = 157, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 185, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 203, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 186, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 204, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 187, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 205, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 188, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 206, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 189, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 207, .file = "passes.rg"},
     {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 18153472, .line = 225, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18153472, .line = 243, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 226, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 244, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .line = 285, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
-     .estimated_alignment = 256, .estimated_offset = 1638400, .line = 310, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .layout = 2946367551,
-     .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 311, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 303, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
+     .estimated_offset = 1638400, .line = 328, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .copies = 2,
+     .init = InitKind::clear, .estimated_bytes = 256, .line = 329, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 312, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 330, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 313, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 331, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
-    {.ref = {.resource = resource::cull_counts}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // mesh_cull.clear
+    {.ref = {.resource = resource::cull_counts}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // mesh_cull_world.clear
     {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // mesh_cull
+    {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
     // mesh_cull
     {.ref = {.resource = resource::world_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // mesh_cull
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
@@ -391,6 +383,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
@@ -400,10 +396,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
@@ -413,6 +405,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 38, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
     // froxel_fog.clusters.cull
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     // froxel_fog.clusters.cull
@@ -421,53 +417,34 @@ constexpr Access kAccesses[] = {
      .writes = true},  // froxel_fog.clusters.cull
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
      .writes = true},  // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
-    // froxel_fog.chain.inject
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    // froxel_fog.chain.inject
-    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.inject
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.inject
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.chain.light
-    // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
@@ -624,10 +601,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[1]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // debug_view
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -655,6 +628,10 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // debug_view
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
     {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
@@ -707,174 +684,168 @@ constexpr Access kAccesses[] = {
 };
 
 constexpr Pass kPasses[] = {
-    {.name = "mesh_cull.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 25, .file = "passes.rg"},
+    {.name = "mesh_cull_world.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 35, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 30, .z = 30}, .line = 27, .file = "passes.rg"},
     {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
      .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 38, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 56, .file = "passes.rg"},
     {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 10, .access_count = 2, .pipeline = 2,
      .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 18, .z = 30},
-     .line = 63, .file = "passes.rg"},
+     .line = 81, .file = "passes.rg"},
     {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
      .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 112, .file = "passes.rg"},
     {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 2, .pipeline = 4,
-     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 48, .file = "passes.rg"},
+     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 66, .file = "passes.rg"},
     {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 3,
      .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 90, .file = "passes.rg"},
     {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 4,
      .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 90, .file = "passes.rg"},
     {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 30, .access_count = 5, .rendering = 5,
      .pipeline = 7, .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 90, .file = "passes.rg"},
     {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 6, .pipeline = 8,
-     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
+     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 122, .file = "passes.rg"},
     {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 7,
      .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 90, .file = "passes.rg"},
     {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 8,
      .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 90, .file = "passes.rg"},
     {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
-     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 116, .file = "passes.rg"},
+     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 134, .file = "passes.rg"},
     {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 9,
      .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 10,
-     .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
-    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
-     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 123,
+     .line = 90, .file = "passes.rg"},
+    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 55, .access_count = 2, .pipeline = 13,
+     .first_binding = 45, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 141,
      .file = "passes.rg"},
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 57, .access_count = 5, .rendering = 10,
+     .pipeline = 14, .first_binding = 47, .binding_count = 4, .first_params = 13, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
+     .line = 90, .file = "passes.rg"},
     {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 11,
      .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
-    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
-     .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+     .line = 90, .file = "passes.rg"},
+    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 67, .access_count = 2, .pipeline = 16,
+     .first_binding = 55, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 69, .access_count = 4, .pipeline = 17,
+     .first_binding = 57, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 39, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
-     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
-     .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 57, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
-     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
-     .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 67, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
-     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
-     .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
-     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
-     .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 99, .access_count = 2, .pipeline = 25,
-     .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
-    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 101, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 141, .file = "passes.rg"},
-    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 156, .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
-     .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 191, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
-     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 141,
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 73, .access_count = 2, .pipeline = 18,
+     .first_binding = 63, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 75, .access_count = 11, .pipeline = 19,
+     .first_binding = 65, .binding_count = 13, .first_params = 17, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .line = 125, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 86, .access_count = 2, .pipeline = 20,
+     .first_binding = 78, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .first_mip_limit = 5,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 88, .access_count = 2, .pipeline = 21,
+     .first_binding = 80, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 90, .access_count = 2, .pipeline = 22,
+     .first_binding = 82, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 9,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 92, .access_count = 2, .pipeline = 23,
+     .first_binding = 84, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .first_mip_limit = 11,
+     .mip_limit_count = 2, .line = 141, .file = "passes.rg"},
+    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 94, .access_count = 2,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 159, .file = "passes.rg"},
+    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 96, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 174, .file = "passes.rg"},
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 97, .access_count = 13, .rendering = 12, .pipeline = 24,
+     .first_binding = 86, .binding_count = 7, .first_params = 19, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 209, .file = "passes.rg"},
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 110, .access_count = 3, .pipeline = 25, .first_binding = 93,
+     .binding_count = 4, .first_params = 20, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 159,
      .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
-     .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 156, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
-     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 209, .file = "passes.rg"},
-    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 149, .file = "passes.rg"},
-    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 134, .access_count = 5, .pipeline = 31, .first_binding = 116,
-     .binding_count = 6, .first_params = 27, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 164,
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 113, .access_count = 3, .pipeline = 26,
+     .first_binding = 97, .binding_count = 4, .first_params = 21, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30},
+     .line = 174, .file = "passes.rg"},
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 116, .access_count = 8, .rendering = 13, .pipeline = 27,
+     .first_binding = 101, .binding_count = 1, .first_params = 22, .params_count = 1, .push_bytes = 128, .push_stages = 1,
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 227, .file = "passes.rg"},
+    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 124, .access_count = 3, .pipeline = 28, .first_binding = 102,
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 167, .file = "passes.rg"},
+    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 127, .access_count = 5, .pipeline = 29, .first_binding = 105,
+     .binding_count = 6, .first_params = 23, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 182,
      .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 4, .pipeline = 32, .first_binding = 122,
-     .binding_count = 5, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 174,
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 132, .access_count = 4, .pipeline = 30, .first_binding = 111,
+     .binding_count = 5, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 192,
      .file = "passes.rg"},
-    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 143, .access_count = 3, .pipeline = 33,
-     .first_binding = 127, .binding_count = 4, .first_params = 29, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 228, .file = "passes.rg"},
-    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 146, .access_count = 16, .pipeline = 34,
-     .first_binding = 131, .binding_count = 18, .first_params = 30, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 236, .file = "passes.rg"},
-    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 14, .pipeline = 35,
-     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17, .push_layout = 2478537437,
-     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 258, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 15, .push_bytes = 80,
-     .push_stages = 17, .push_layout = 1519638825, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 279, .file = "passes.rg"},
-    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 5, .pipeline = 36,
-     .first_binding = 163, .binding_count = 6, .first_params = 34, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 329, .file = "passes.rg"},
-    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 183, .access_count = 2, .pipeline = 37,
-     .first_binding = 169, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 339, .file = "passes.rg"},
-    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 185, .access_count = 2, .pipeline = 38,
-     .first_binding = 171, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 13,
-     .mip_limit_count = 1, .line = 346, .file = "passes.rg"},
-    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 187, .access_count = 2, .pipeline = 39,
-     .first_binding = 173, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 14,
-     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 189, .access_count = 16, .pipeline = 40,
-     .first_binding = 175, .binding_count = 18, .first_params = 35, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 286, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 205, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 315, .file = "passes.rg"},
-    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 206, .access_count = 2, .pipeline = 41,
-     .first_binding = 193, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 16,
-     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 42, .first_binding = 195,
-     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 315, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 2, .pipeline = 43,
-     .first_binding = 197, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 212, .access_count = 3, .pipeline = 44, .first_binding = 199,
-     .binding_count = 4, .first_params = 37, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 321,
+    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 136, .access_count = 3, .pipeline = 31,
+     .first_binding = 116, .binding_count = 4, .first_params = 25, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 246, .file = "passes.rg"},
+    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 16, .pipeline = 32,
+     .first_binding = 120, .binding_count = 18, .first_params = 26, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 254, .file = "passes.rg"},
+    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 155, .access_count = 14, .rendering = 14, .pipeline = 33,
+     .first_binding = 138, .binding_count = 14, .first_params = 28, .params_count = 2, .push_bytes = 4, .push_stages = 17,
+     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 276, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 169, .access_count = 2, .rendering = 15, .push_bytes = 80,
+     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 297, .file = "passes.rg"},
+    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 171, .access_count = 5, .pipeline = 34,
+     .first_binding = 152, .binding_count = 6, .first_params = 30, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 347, .file = "passes.rg"},
+    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 176, .access_count = 2, .pipeline = 35,
+     .first_binding = 158, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 357, .file = "passes.rg"},
+    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 2, .pipeline = 36,
+     .first_binding = 160, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 13,
+     .mip_limit_count = 1, .line = 364, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 180, .access_count = 16, .pipeline = 37,
+     .first_binding = 162, .binding_count = 18, .first_params = 31, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 304, .file = "passes.rg"},
+    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 196, .access_count = 2, .pipeline = 38,
+     .first_binding = 180, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 14,
+     .mip_limit_count = 2, .line = 364, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 198, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 333, .file = "passes.rg"},
+    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 199, .access_count = 2, .pipeline = 39,
+     .first_binding = 182, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 16,
+     .mip_limit_count = 2, .line = 364, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 201, .access_count = 2, .pipeline = 40, .first_binding = 184,
+     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 333, .file = "passes.rg"},
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 203, .access_count = 2, .pipeline = 41,
+     .first_binding = 186, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 18,
+     .mip_limit_count = 2, .line = 364, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 205, .access_count = 3, .pipeline = 42, .first_binding = 188,
+     .binding_count = 4, .first_params = 33, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 339,
      .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 215, .access_count = 2, .pipeline = 45,
-     .first_binding = 203, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 346, .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 217, .access_count = 2, .pipeline = 46,
-     .first_binding = 205, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 219, .access_count = 2, .pipeline = 47,
-     .first_binding = 207, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 221, .access_count = 2, .pipeline = 48,
-     .first_binding = 209, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 2, .pipeline = 49,
-     .first_binding = 211, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
-    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 225, .access_count = 2, .pipeline = 50,
-     .first_binding = 213, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 30,
-     .mip_limit_count = 1, .line = 354, .file = "passes.rg"},
-    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 227, .access_count = 5, .rendering = 16, .pipeline = 51,
-     .first_binding = 215, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 133}, .line = 361,
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 43,
+     .first_binding = 192, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 20,
+     .mip_limit_count = 2, .line = 364, .file = "passes.rg"},
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 2, .pipeline = 44,
+     .first_binding = 194, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 22,
+     .mip_limit_count = 2, .line = 372, .file = "passes.rg"},
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 212, .access_count = 2, .pipeline = 45,
+     .first_binding = 196, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 372, .file = "passes.rg"},
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 214, .access_count = 2, .pipeline = 46,
+     .first_binding = 198, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 372, .file = "passes.rg"},
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 216, .access_count = 2, .pipeline = 47,
+     .first_binding = 200, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 372, .file = "passes.rg"},
+    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 218, .access_count = 2, .pipeline = 48,
+     .first_binding = 202, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 30,
+     .mip_limit_count = 1, .line = 372, .file = "passes.rg"},
+    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 220, .access_count = 5, .rendering = 16, .pipeline = 49,
+     .first_binding = 204, .binding_count = 5, .first_params = 34, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 133}, .line = 379,
      .file = "passes.rg"},
 };
 
@@ -947,64 +918,46 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> depth_range_first
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 2}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
      .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_first -> depth_range_down[1]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7}, .src_stages = stage::compute_shader,
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[6] -> lamp_shadow_world[7]
+     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[5] -> lamp_shadow_world[6]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
-    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.inject
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.chain.light
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.merged
     {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.inject -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.merged
+    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
+    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
     {.image = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.chain.light
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.merged
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
-    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
@@ -1058,11 +1011,11 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> ambient_occlusion
-    // froxel_fog.chain.integrate -> deferred_light
+    // froxel_fog.merged -> deferred_light
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
-    // froxel_fog.chain.integrate -> deferred_light
+    // froxel_fog.merged -> deferred_light
     {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
@@ -1111,12 +1064,12 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_first -> bloom_down[1]
-    {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[1] -> bloom_down[2]
     {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> debug_view
+    {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[1] -> bloom_down[2]
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[2] -> bloom_down[3]
@@ -1173,8 +1126,9 @@ constexpr ImageBarrier kImageBarriers[] = {
 constexpr BufferBarrier kBufferBarriers[] = {
     // frame start -> mesh_cull
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
+    // mesh_cull_world.clear -> mesh_cull
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // mesh_cull.clear -> mesh_cull
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1188,15 +1142,15 @@ constexpr BufferBarrier kBufferBarriers[] = {
     {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 134, .size = 135}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136, .size = 135}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136, .size = 137}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[6] -> lamp_shadow_world[7]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 137}, .src_stages = stage::compute_shader,
+    // lamp_shadow_world[5] -> lamp_shadow_world[6]
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 138}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.inject
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.light
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     // frame start -> light_occlusion.clear
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     // zbin_build.clear -> zbin_build
@@ -1235,37 +1189,37 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {},  // before mesh_cull.clear  passes.rg:25
-    {.buffer_count = 2},  // before mesh_cull  passes.rg:25
-    {.image_count = 2, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:38
-    {.first_image = 2, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:48
-    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:72
-    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:72
-    {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:72
-    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
-    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
-    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
-    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
-    {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
-    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:141
-    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:149
-    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:236
-    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:258
-    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:279
-    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:329
-    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:339
-    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:346
-    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:346
-    {.first_image = 59, .image_count = 2, .first_buffer = 22, .buffer_count = 1},  // before debug_view  passes.rg:286
-    {.first_image = 61, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:315
-    {.first_image = 62, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before expose  passes.rg:321
-    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:354
-    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:354
-    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:354
-    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:354
-    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:354
-    {.first_image = 73, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:361
-    {.first_image = 76, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
+    {},  // before mesh_cull_world.clear  passes.rg:35
+    {.buffer_count = 2},  // before mesh_cull  passes.rg:27
+    {.image_count = 2, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:56
+    {.first_image = 2, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:66
+    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:90
+    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:90
+    {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[6]  passes.rg:90
+    {.first_image = 12, .image_count = 1},  // before froxel_fog.clusters.cull  passes/fog/fog.rg:39
+    {.first_image = 13, .image_count = 7, .first_buffer = 9, .buffer_count = 2},  // before froxel_fog.merged  passes/fog/fog.rg:125
+    {.first_image = 20, .image_count = 1},  // before depth_range_down[5]  passes.rg:141
+    {.first_image = 21, .image_count = 1},  // before depth_range_down[6]  passes.rg:141
+    {.first_image = 22, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:141
+    {.first_image = 28, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:159
+    {.first_image = 34, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:167
+    {.first_image = 36, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:254
+    {.first_image = 43, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:276
+    {.first_image = 44, .image_count = 1},  // before hologram  passes.rg:297
+    {.first_image = 45, .image_count = 3},  // before resolve_temporal  passes.rg:347
+    {.first_image = 48, .image_count = 3},  // before bloom_first  passes.rg:357
+    {.first_image = 51, .image_count = 1},  // before bloom_down[1]  passes.rg:364
+    {.first_image = 52, .image_count = 2, .first_buffer = 22, .buffer_count = 1},  // before debug_view  passes.rg:304
+    {.first_image = 54, .image_count = 1},  // before luminance.clear  passes.rg:333
+    {.first_image = 55, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:333
+    {.first_image = 56, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before expose  passes.rg:339
+    {.first_image = 57, .image_count = 2},  // before bloom_up[1]  passes.rg:372
+    {.first_image = 59, .image_count = 2},  // before bloom_up[2]  passes.rg:372
+    {.first_image = 61, .image_count = 2},  // before bloom_up[3]  passes.rg:372
+    {.first_image = 63, .image_count = 2},  // before bloom_up[4]  passes.rg:372
+    {.first_image = 65, .image_count = 2},  // before bloom_up[5]  passes.rg:372
+    {.first_image = 67, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:379
+    {.first_image = 70, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1289,14 +1243,14 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1319,12 +1273,6 @@ constexpr Boundary kEntry[] = {
      .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
      .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -1406,14 +1354,14 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1436,12 +1384,6 @@ constexpr Boundary kExit[] = {
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .queue = 0},
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -1521,55 +1463,49 @@ constexpr Acquire kAcquires[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
     {.resource = resource::lamp_draws, .group = 2, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 2,
      .first_clock = 6},
-    {.resource = resource::scattered, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 22},
-    {.resource = resource::transmittance, .group = 9, .image_barrier = 23, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 24},
-    {.resource = resource::froxel_fog_cluster_volumes, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 6, .first_clock = 12},
-    {.resource = resource::froxel_fog_cluster_lights, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 6, .first_clock = 14},
-    {.resource = resource::froxel_fog_density, .group = 7, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 7, .first_clock = 16},
-    {.resource = resource::froxel_fog_inscatter, .group = 8, .image_barrier = 17, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::scattered, .group = 8, .image_barrier = 15, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 8, .first_clock = 16},
+    {.resource = resource::transmittance, .group = 8, .image_barrier = 16, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 8, .first_clock = 18},
-    {.resource = resource::froxel_fog_extinction, .group = 8, .image_barrier = 18, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 8, .first_clock = 20},
+    {.resource = resource::froxel_fog_cluster_volumes, .group = 7, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 7, .first_clock = 12},
+    {.resource = resource::froxel_fog_cluster_lights, .group = 7, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 7, .first_clock = 14},
     {.resource = resource::depth, .group = 2, .image_barrier = 1, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 8},
     {.resource = resource::depth_range, .group = 4, .image_barrier = 7, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 4, .first_clock = 10},
-    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 26},
-    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 28},
+    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 20},
+    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 22},
     {.resource = resource::zbins, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 42},
-    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 30},
+     .first_clock = 36},
+    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 24},
     {.resource = resource::tile_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 44},
+     .first_clock = 38},
     {.resource = resource::forward_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 46},
+     .first_clock = 40},
     {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 48},
-    {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .first_clock = 42},
+    {.resource = resource::albedo, .group = 11, .image_barrier = 23, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 26},
+    {.resource = resource::normal, .group = 11, .image_barrier = 24, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 28},
+    {.resource = resource::material, .group = 11, .image_barrier = 25, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 30},
+    {.resource = resource::emissive, .group = 11, .image_barrier = 26, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
-    {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::velocity, .group = 11, .image_barrier = 27, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 34},
-    {.resource = resource::material, .group = 11, .image_barrier = 31, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 36},
-    {.resource = resource::emissive, .group = 11, .image_barrier = 32, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 38},
-    {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 40},
-    {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 50},
-    {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 14, .first_clock = 52},
-    {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 21, .first_clock = 56},
-    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 58},
-    {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 54},
+    {.resource = resource::occlusion, .group = 13, .image_barrier = 35, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 13, .first_clock = 44},
+    {.resource = resource::hdr, .group = 14, .image_barrier = 42, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 14, .first_clock = 46},
+    {.resource = resource::debug_image, .group = 20, .image_barrier = 52, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 20, .first_clock = 50},
+    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 52},
+    {.resource = resource::bloom, .group = 18, .image_barrier = 49, .image_barriers = 2, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 18, .first_clock = 48},
 };
 
 constexpr Release kReleases[] = {
@@ -1577,28 +1513,25 @@ constexpr Release kReleases[] = {
     {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 3},
     {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 16},
     {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 7},
-    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 8},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 9},
     {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 9},
-    {.resource = resource::froxel_fog_density, .stages = stage::compute_shader, .point = 9},
-    {.resource = resource::froxel_fog_inscatter, .stages = stage::compute_shader, .point = 10},
-    {.resource = resource::froxel_fog_extinction, .stages = stage::compute_shader, .point = 10},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 22},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 21},
     {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 14},
     {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 14},
     {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
     {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::normal, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::material, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 21},
     {.resource = resource::hdr, .stages = stage::compute_shader, .point = 23},
     {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 30},
     {.resource = resource::histogram, .stages = stage::compute_shader, .point = 24},
@@ -1606,10 +1539,10 @@ constexpr Release kReleases[] = {
 };
 
 constexpr Index kAliasClocks[] = {
-    1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 6, 31, 6, 31,
-    7, 31, 8, 31, 8, 31, 9, 31, 9, 31, 11, 31, 11, 31, 11, 31,
-    11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 13, 31, 13, 31, 13, 31,
-    13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
+    1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 7, 31, 7, 31,
+    8, 31, 8, 31, 11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 11, 31,
+    11, 31, 11, 31, 13, 31, 13, 31, 13, 31, 13, 31, 13, 31, 14, 31,
+    18, 31, 20, 31, 21, 31,
 };
 
 constexpr Queue kQueues[] = {
@@ -1618,7 +1551,7 @@ constexpr Queue kQueues[] = {
 
 constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
-    {.kind = StepKind::pass, .index = pass::mesh_cull_clear},
+    {.kind = StepKind::pass, .index = pass::mesh_cull_world_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
     {.kind = StepKind::barriers, .index = 2},
@@ -1637,20 +1570,18 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::depth_range_first},
     {.kind = StepKind::barriers, .index = 5},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 6},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_inject},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
     {.kind = StepKind::barriers, .index = 8},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_light},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_merged},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
     {.kind = StepKind::barriers, .index = 9},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_integrate},
     {.kind = StepKind::pass, .index = pass::depth_range_down_5},
     {.kind = StepKind::barriers, .index = 10},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
@@ -1681,9 +1612,9 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 19},
     {.kind = StepKind::pass, .index = pass::bloom_down_1},
     {.kind = StepKind::barriers, .index = 20},
+    {.kind = StepKind::pass, .index = pass::debug_view},
     {.kind = StepKind::pass, .index = pass::bloom_down_2},
     {.kind = StepKind::barriers, .index = 21},
-    {.kind = StepKind::pass, .index = pass::debug_view},
     {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_down_3},
     {.kind = StepKind::barriers, .index = 22},
@@ -1708,7 +1639,7 @@ constexpr Step kSteps[] = {
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 88},
+    {.step_count = 86},
 };
 
 constexpr Attachment kAttachments[] = {
@@ -1793,7 +1724,7 @@ constexpr Rendering kRenderings[] = {
 };
 
 constexpr ShaderModule kShaders[] = {
-    {.name = "passes/geometry/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_mesh_cull_comp},
+    {.name = "rgc/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_mesh_cull_comp},
     {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
     {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
     {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
@@ -1803,9 +1734,7 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
     {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
-    {.name = "passes/fog/fog_inject.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_inject_comp},
-    {.name = "passes/fog/fog_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_light_comp},
-    {.name = "passes/fog/fog_integrate.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_integrate_comp},
+    {.name = "rgc/froxel_fog.merged.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp},
     {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
     {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
     {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
@@ -1831,10 +1760,10 @@ constexpr ShaderModule kShaders[] = {
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 5, 5, 5, 6, 5, 5, 7, 5, 5, 8, 5,
-    9, 8, 10, 8, 11, 8, 12, 8, 8, 8, 13, 14, 15, 16, 17, 18,
-    19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 28, 29, 28, 30, 28, 31,
-    28, 32, 32, 32, 32, 32, 33, 34,
+    0, 1, 2, 3, 4, 5, 5, 5, 6, 5, 5, 7, 5, 8, 5, 5,
+    8, 9, 8, 10, 8, 8, 8, 8, 11, 12, 13, 14, 15, 16, 17, 18,
+    19, 20, 21, 22, 23, 24, 25, 26, 27, 26, 26, 28, 26, 29, 26, 30,
+    30, 30, 30, 30, 31, 32,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -1905,58 +1834,56 @@ constexpr Pipeline kPipelines[] = {
     {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 11, .shader_count = 1},
     {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 12, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 13, .shader_count = 1,
+    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 13, .shader_count = 1},
+    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 14, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 14, .shader_count = 1},
     {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 15, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 16, .shader_count = 1},
-    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
-    {.name = "froxel_fog.chain.inject", .pass = pass::froxel_fog_chain_inject, .first_shader = 18, .shader_count = 1},
-    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
-    {.name = "froxel_fog.chain.light", .pass = pass::froxel_fog_chain_light, .first_shader = 20, .shader_count = 1},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 21, .shader_count = 1},
-    {.name = "froxel_fog.chain.integrate", .pass = pass::froxel_fog_chain_integrate, .first_shader = 22, .shader_count = 1},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 23, .shader_count = 1},
-    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 24, .shader_count = 1},
-    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 25, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 16, .shader_count = 1},
+    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 17, .shader_count = 1},
+    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 18, .shader_count = 1},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 19, .shader_count = 1},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 20, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 21, .shader_count = 1},
+    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 22, .shader_count = 1},
+    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 23, .shader_count = 1},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 24, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .blend_count = 5},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 28, .shader_count = 1},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 29, .shader_count = 1},
-    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 30, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 26, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 27, .shader_count = 1},
+    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 28, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
-    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 32, .shader_count = 1},
-    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 33, .shader_count = 1},
-    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 34, .shader_count = 1},
-    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 35, .shader_count = 1},
-    {.name = "deferred_light", .pass = pass::deferred_light, .first_shader = 36, .shader_count = 1},
-    {.name = "transparent", .pass = pass::transparent, .first_shader = 37, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
+    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 30, .shader_count = 1},
+    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 31, .shader_count = 1},
+    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 32, .shader_count = 1},
+    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 33, .shader_count = 1},
+    {.name = "deferred_light", .pass = pass::deferred_light, .first_shader = 34, .shader_count = 1},
+    {.name = "transparent", .pass = pass::transparent, .first_shader = 35, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
      .blend_count = 1},
-    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 39, .shader_count = 1},
-    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 40, .shader_count = 1},
-    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 41, .shader_count = 1},
-    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 42, .shader_count = 1},
-    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 43, .shader_count = 1},
-    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 44, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 45, .shader_count = 1},
-    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 46, .shader_count = 1},
-    {.name = "expose", .pass = pass::expose, .first_shader = 47, .shader_count = 1},
-    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 48, .shader_count = 1},
-    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 49, .shader_count = 1},
-    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 50, .shader_count = 1},
-    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 51, .shader_count = 1},
-    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 52, .shader_count = 1},
-    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 53, .shader_count = 1},
-    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 54, .shader_count = 2, .first_blend = 11, .blend_count = 1},
+    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 37, .shader_count = 1},
+    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 38, .shader_count = 1},
+    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 39, .shader_count = 1},
+    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 40, .shader_count = 1},
+    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 41, .shader_count = 1},
+    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 42, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 43, .shader_count = 1},
+    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 44, .shader_count = 1},
+    {.name = "expose", .pass = pass::expose, .first_shader = 45, .shader_count = 1},
+    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 46, .shader_count = 1},
+    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 47, .shader_count = 1},
+    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 48, .shader_count = 1},
+    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 49, .shader_count = 1},
+    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 50, .shader_count = 1},
+    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 51, .shader_count = 1},
+    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 52, .shader_count = 2, .first_blend = 11, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // mesh_cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
@@ -2000,18 +1927,22 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[5]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
      .layout = Layout::shader_read_only},  // depth_range_down[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.clusters.cull
     // froxel_fog.clusters.cull
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},
@@ -2022,57 +1953,35 @@ constexpr Binding kBindings[] = {
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.chain.inject
-    // froxel_fog.chain.inject
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
-    {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.inject
-    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.inject
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.inject
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.inject
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.chain.light
-    // froxel_fog.chain.light
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
-    {.binding = 2, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.binding = 3, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.light
-    {.binding = 4, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
-     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.binding = 6, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.chain.light
-    {.binding = 7, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.light
-    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.light
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
+    {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.merged
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 7, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.merged
+    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
+     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 10, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.merged
+    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.merged
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
-    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.integrate
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.integrate
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -2195,10 +2104,6 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_down[1]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // debug_view
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
@@ -2228,6 +2133,10 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
     {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
     {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -2283,15 +2192,15 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "camera", .bytes = 528, .layout = 2927969200},
-    {.name = "fog", .bytes = 112, .layout = 3517107466},
-    {.name = "lamps", .bytes = 384, .layout = 2251160174},
+    {.name = "camera", .bytes = 528},
+    {.name = "fog", .bytes = 112},
+    {.name = "lamps", .bytes = 384},
 };
 
 constexpr Index kPassParams[] = {
     0, 0, 0, 2, 0, 0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 0,
-    1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1,
-    0, 1, 0, 0, 1, 0, 0,
+    1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0,
+    1, 0, 0,
 };
 
 constexpr std::string_view kConditions[] = {
@@ -2331,17 +2240,10 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(plan(), std::move(*instance), options);
+  return Frame(std::move(*instance));
 }
 
-rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
-  auto instance = succeed(current, plan(), options);
-  if (!instance) return instance.error();
-  return Frame(plan(), std::move(*instance), options);
-}
-
-rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
-rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
+rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
 
 rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
                          void* recorder) {
@@ -2369,17 +2271,17 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
   };
   inputs.params = params_rows;
   if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;
-  return execute_inputs(inputs);
+  return instance_.execute(inputs);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::cull_counts() {
-  const auto bytes = read_back(resource::cull_counts);
+  const auto bytes = instance_.readback(resource::cull_counts);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::tile_features() {
-  const auto bytes = read_back(resource::tile_features);
+  const auto bytes = instance_.readback(resource::tile_features);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }

@@ -74,6 +74,16 @@ void add_switches(CLI::App& command, compiler::PlanOptions& plan) {
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
   add_switches(command, options.plan);
+  command.add_flag_callback(
+      "--no-fuse", [&options] { options.fuse = false; }, "every block is a kernel of its own, whatever `fuse` says");
+  command
+      .add_option_function<std::string>(
+          "--halves",
+          [&options](const std::string& word) {
+            options.halves = word == "zero" ? compiler::HalfRounding::zero : compiler::HalfRounding::nearest;
+          },
+          "how images of the device round 16-bit floats: zero (default) or nearest")
+      ->check(CLI::IsMember({"zero", "nearest"}));
   const std::map<std::string, dsl::QueueKind> kinds = {
       {"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}};
   command.add_option("--queues", options.plan.queues, "what the plan may use, graphics first; default: graphics")

@@ -1,7 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/facts.h"
+#include "compiler/fusion/fusion_figures.h"
 
 namespace rg::commands {
 namespace {
@@ -32,6 +36,50 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
   text += fmt::format("  planned   in {:.2f} ms\n", facts.plan_ms);
   for (const auto& [phase, ms] : facts.phase_ms) text += fmt::format("              {:<12} {:.2f} ms\n", phase, ms);
   return text;
+}
+
+// What each `fuse` gave, beside the same program without.
+std::string fused_text(const compiler::CompileResult& result, const compiler::CompileResult* unfused, size_t graph) {
+  std::string text;
+  for (const compiler::FusedKernel& kernel : result.fused) {
+    if (kernel.graph.value != graph) continue;
+    const compiler::FusionFigures figures = compiler::fusion_figures(result.written, kernel, dsl::initial_extents(result.written));
+    text += fmt::format("  fused     {}: {} in one kernel, {} a frame not moved, {} not held\n", kernel.pass, fmt::join(kernel.members, ", "),
+                        mib(figures.moved), mib(figures.memory));
+  }
+  if (text.empty() || unfused == nullptr || graph >= unfused->graphs.size()) return text;
+  const compiler::CompiledGraph& other = unfused->graphs[graph];
+  for (const compiler::FramePlan& plan : other.plans) {
+    const Facts facts = find_facts(unfused->program, other, plan);
+    text += fmt::format("            without it: {} passes, {} barriers in {}, {} of memory{}{}\n", facts.passes_live, facts.barriers,
+                        counted(facts.barrier_calls, "call"), mib(facts.heap_bytes), facts.variant.empty() ? "" : "  ", facts.variant);
+  }
+  return text;
+}
+
+nlohmann::ordered_json fused_json(const compiler::CompileResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const compiler::FusedKernel& kernel : result.fused) {
+    const compiler::FusionFigures figures = compiler::fusion_figures(result.written, kernel, dsl::initial_extents(result.written));
+    nlohmann::ordered_json kept = nlohmann::ordered_json::array();
+    for (const compiler::FusedKernel::Saved& saved : kernel.saved)
+      if (saved.dropped) kept.push_back(result.written.graphs[kernel.graph].resources[saved.resource].name);
+    rows.push_back({{"graph", result.written.graphs[kernel.graph].name},
+                    {"fuse", kernel.fusion},
+                    {"pass", kernel.pass},
+                    {"members", kernel.members},
+                    {"in_registers", std::move(kept)},
+                    {"bytes_not_moved", figures.moved},
+                    {"bytes_not_held", figures.memory}});
+  }
+  return rows;
+}
+
+nlohmann::ordered_json not_fused_json(const compiler::CompileResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const compiler::FusionRefusal& refusal : result.not_fused)
+    rows.push_back({{"graph", result.written.graphs[refusal.graph].name}, {"fuse", refusal.fusion}, {"pass", refusal.pass}, {"reason", refusal.reason}});
+  return rows;
 }
 
 // Variants that were built, and why the others were not.
@@ -68,12 +116,14 @@ nlohmann::ordered_json variants_json(const std::vector<compiler::CompiledGraph>&
 }
 
 // The facts of the first plan at the top; `plans` holds those of every graph and configuration.
-nlohmann::ordered_json json_of(const std::vector<Facts>& all, const std::vector<compiler::CompiledGraph>& graphs) {
+nlohmann::ordered_json json_of(const std::vector<Facts>& all, const compiler::CompileResult& result) {
   nlohmann::ordered_json json = {{"schema", "rgc-report-1"}};
   json.update(to_json(all.front()));
   json["plans"] = nlohmann::ordered_json::array();
   for (const Facts& facts : all) json["plans"].push_back(to_json(facts));
-  json["shader_variants"] = variants_json(graphs);
+  json["shader_variants"] = variants_json(result.graphs);
+  json["fused"] = fused_json(result);
+  json["not_fused"] = not_fused_json(result);
   return json;
 }
 
@@ -84,15 +134,18 @@ int report(const ReportOptions& options) {
   compile.until = compiler::Until::plans;
   const auto result = compile_or_report(options.file, compile);
   if (!result) return exit_input_wrong;
+  std::optional<compiler::CompileResult> unfused;  // for comparison
+  compile.fuse = false;
+  if (!result->fused.empty() && !options.json) unfused = compile_or_report(options.file, compile);
   std::vector<Facts> all;
   for (const compiler::CompiledGraph& graph : result->graphs) {
     for (const compiler::FramePlan& plan : graph.plans) {
       all.push_back(find_facts(result->program, graph, plan));
       if (!options.json) print(text_of(all.back(), plan.plan));
     }
-    if (!options.json) print(variants_text(graph.shaders));
+    if (!options.json) print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + variants_text(graph.shaders));
   }
-  if (options.json) print(json_of(all, result->graphs).dump(2) + "\n");
+  if (options.json) print(json_of(all, *result).dump(2) + "\n");
   return exit_done;
 }
 

@@ -5,6 +5,7 @@
 #include "compiler/commands/command.h"
 #include "compiler/configurations.h"
 #include "compiler/machine/machine.h"
+#include "compiler/verify/fusion.h"
 #include "compiler/verify/mutate.h"
 
 namespace rg::commands {
@@ -15,12 +16,21 @@ std::string subject(const compiler::CompileResult& result, const compiler::Compi
   return result.program.graphs[graph.graph].name + (variant.empty() ? "" : " " + variant);
 }
 
+std::vector<verify::Kernel> kernels_of(const compiler::CompileResult& result, const compiler::CompiledGraph& graph) {
+  std::vector<verify::Kernel> kernels;
+  for (const compiler::FusedKernel& kernel : result.fused)
+    if (kernel.graph == graph.graph) kernels.push_back({kernel.pass, kernel.members});
+  return kernels;
+}
+
 // True if the checker proves the plan; findings are printed.
 bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph& graph, const compiler::FramePlan& plan) {
   const std::string name = subject(result, graph, plan);
   show_progress("proving " + name);
-  const auto findings =
+  auto findings =
       verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource);
+  for (verify::Finding& finding : verify::verify_fusion(result.written, result.program, graph.graph, plan.configuration, kernels_of(result, graph)))
+    findings.push_back(std::move(finding));
   show_progress({});
   for (const verify::Finding& finding : findings) print(fmt::format("{}: {}: {}\n", name, verify::name(finding.hazard), finding.text));
   if (findings.empty()) print(fmt::format("{}: proved\n", name));

@@ -95,6 +95,14 @@ std::vector<ShaderMessage> parse_log(const std::string& log, const std::set<std:
   return {{"", 0, "the shader compiler failed without a message"}};
 }
 
+// The files that a text says its lines come from.
+void add_line_names(const std::string& text, std::set<std::string>& names) {
+  for (size_t at = text.find("#line "); at != std::string::npos; at = text.find("#line ", at + 1)) {
+    const size_t end = text.find('\n', at), open = text.find('"', at), close = text.find('"', open + 1);
+    if (close < end) names.insert(text.substr(open + 1, close - open - 1));
+  }
+}
+
 void configure(glslang::TShader& shader, dsl::Stage stage) {
   shader.setEnvInput(glslang::EShSourceGlsl, language(stage), glslang::EShClientVulkan, 100);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
@@ -106,6 +114,7 @@ void configure(glslang::TShader& shader, dsl::Stage stage) {
 FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources) {
   start_glslang();
   std::set<std::string> names = {std::string(kPreludeName), path};
+  add_line_names(text, names);
   const char* texts[] = {prelude.c_str(), text.c_str()};
   const int lengths[] = {static_cast<int>(prelude.size()), static_cast<int>(text.size())};
   const char* labels[] = {kPreludeName.data(), path.c_str()};

@@ -252,13 +252,17 @@ ViewShape view_shape(const dsl::Resource& image, const dsl::Access& access) {
   return shape;
 }
 
+std::string binding_name(const dsl::Access& access) {
+  if (access.role == dsl::Role::input) return "rg_input_" + access.name;
+  return access.element ? "rg_own_" + access.name : access.name;
+}
+
 std::vector<InterfaceBinding> pass_bindings(const dsl::Program&, const dsl::Graph& graph, const dsl::Pass& pass) {
   std::vector<InterfaceBinding> bindings;
   if (pass.kind != dsl::PassKind::raster && pass.kind != dsl::PassKind::compute) return bindings;
   for (uint32_t i = 0; i < pass.accesses.size(); ++i) {
     const dsl::Access& access = pass.accesses[i];
-    const std::string name = (access.role == dsl::Role::input ? "rg_input_" : "") + access.name;
-    InterfaceBinding binding{.binding = static_cast<uint32_t>(bindings.size()), .access = i, .name = name, .span = access.span};
+    InterfaceBinding binding{.binding = static_cast<uint32_t>(bindings.size()), .access = i, .name = binding_name(access), .span = access.span};
     if (binding_kind(graph, access, binding.kind)) bindings.push_back(std::move(binding));
   }
   for (uint32_t i = 0; i < pass.params.size(); ++i) {

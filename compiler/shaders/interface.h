@@ -35,6 +35,8 @@ struct InterfaceBinding {
   std::string name;
   dsl::Span span;  // of the declaration
 };
+// What shaders call the descriptor of an access: its name, but for elements, whose name is that of a variable.
+std::string binding_name(const dsl::Access& access);
 std::vector<InterfaceBinding> pass_bindings(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass);
 
 // The view an access makes of its image: a range of one layer of an array is not an array, one of a cube's faces is 2D.

@@ -48,47 +48,50 @@ technique fog_clusters(params camera: View, params fog: Fog, buffer lights, buff
   }
 }
 
-// Three kernels with volumes between them.
+// A stretch of even fog: what it scatters towards its near end, and the share of light from behind that comes through.
+struct Stretch { light: vec3  through: f32 }
+
+// Three blocks, each a kernel of its own with volumes between them, or one kernel where a `fuse` stands around.
 technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer volumes, buffer cluster_volumes,
     buffer cluster_lights, image albedo_maps, image sun_shadow, image lamp_shadow, inout image density,
     inout image inscatter, inout image extinction, inout image memory, inout image scattered,
     inout image transmittance)
 {
   pass inject : compute queue compute may {
-    shader "fog_inject.comp" group 64 1 1
+    block  "fog_inject.glsl" group 4 4 4
     params camera
     params fog
     read   volumes as storage
     read   cluster_volumes as storage
     read   albedo_maps as sampled(surface_sampler)
-    write  density as storage
-    dispatch groups ceil(froxels / FOG_CLUSTER)
+    write  density as element
+    dispatch over froxels
   }
   pass light : compute queue compute may {
-    shader "fog_light.comp" group 64 1 1
+    block  "fog_light.glsl" group 4 4 4
     params camera
     params fog
     read   lights as storage
     read   cluster_lights as storage
-    read   density as sampled
+    read   density as element
     read   albedo_maps as sampled(surface_sampler)
     read   sun_shadow as sampled
     read   lamp_shadow as sampled
     read   memory.prev(1) as sampled(linear_clamp)
-    write  inscatter as storage
-    write  extinction as storage
-    write  memory as storage
-    dispatch groups ceil(froxels / FOG_CLUSTER)
+    write  inscatter as element
+    write  extinction as element
+    write  memory as element
+    dispatch over froxels
   }
   pass integrate : compute queue compute may {
-    shader "fog_integrate.comp" group 8 8 1
+    block  "fog_integrate.glsl" group 8 8 1 scan z Stretch associative
     params camera
     params fog
-    read   inscatter as sampled
-    read   extinction as sampled
-    write  scattered as storage
-    write  transmittance as storage
-    dispatch over [froxels.x, froxels.y]
+    read   inscatter as element
+    read   extinction as element
+    write  scattered as element
+    write  transmittance as element
+    dispatch over froxels
   }
 }
 
@@ -113,24 +116,14 @@ technique merged_fog(params camera: View, params fog: Fog, buffer lights, buffer
 {
   buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
   buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  image  density         : r16f froxels
+  image  inscatter       : r11g11b10f froxels
+  image  extinction      : r16f froxels
   image  memory          : rgba16f froxels history 1 init clear -1
 
   use clusters = fog_clusters(camera, fog, lights, volumes, cluster_volumes, cluster_lights)
-  pass merged : compute queue compute may {
-    shader "fog_merged.comp" group 64 1 1
-    params camera
-    params fog
-    read   lights as storage
-    read   volumes as storage
-    read   cluster_volumes as storage
-    read   cluster_lights as storage
-    read   albedo_maps as sampled(surface_sampler)
-    read   sun_shadow as sampled
-    read   lamp_shadow as sampled
-    read   memory.prev(1) as sampled(linear_clamp)
-    write  memory as storage
-    write  scattered as storage
-    write  transmittance as storage
-    dispatch groups ceil([froxels.x, froxels.y] / FOG_CLUSTER)
+  fuse merged {
+    use chain = fog_chain(camera, fog, lights, volumes, cluster_volumes, cluster_lights, albedo_maps, sun_shadow, lamp_shadow, density, inscatter,
+        extinction, memory, scattered, transmittance)
   }
 }

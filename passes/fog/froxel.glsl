@@ -11,6 +11,7 @@ vec3 froxel_to_view(vec3 cell) { return froxel_ray(cell.xy / fog.count.xy) * sli
 // Where a froxel is looked at in this frame, world space.
 vec3 sample_of(ivec3 cell) { return view_to_world(froxel_to_view(vec3(cell) + 0.5 + fog.jitter)); }
 
-// Froxel of a lane within its cluster: four neighbours in depth lie in four neighbouring lanes.
-ivec3 froxel_of_lane(uvec3 cluster, uint lane) { return ivec3(cluster * uint(FOG_CLUSTER) + uvec3(lane >> 2 & 3u, lane >> 4, lane & 3u)); }
 uint cluster_index(uvec3 cluster, uvec3 clusters) { return (cluster.z * clusters.y + cluster.y) * clusters.x + cluster.x; }
+uint cluster_of(ivec3 cell, ivec3 count) {
+  return cluster_index(uvec3(cell) / uint(FOG_CLUSTER), uvec3(count + FOG_CLUSTER - 1) / uint(FOG_CLUSTER));
+}

@@ -42,6 +42,11 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
   when fog { use blur(a, b[0], 3, view_constants, c) } else { use other = blur(a, b[0], 3, view_constants, c) }
   when not path == high { }
   if host missed { pass m : compute { } }
+  fuse k may unrounded when not fog {
+    pass k1 : compute { block "k.glsl" group 8 8 scan x View associative  read own = a as element  dispatch over view }
+    pass k2 : compute { block "k.glsl" scan z f32  dispatch over view }
+  }
+  fuse j { pass j1 : compute { block "j.glsl" group TILE } }
   assert memory(1920x1080) <= 170 MiB
   warn order(p, q[1])
 }

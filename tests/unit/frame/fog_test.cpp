@@ -157,11 +157,11 @@ TEST(FogClusters, HoldEveryLampAndBoxThatReachesAFroxel) {
 TEST(FogInject, IsTheSumOfHeightFogAndBoxes) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const Volume density = read(lab, data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
+  const Volume density = read(lab, data, pass::froxel_fog_merged, resource::froxel_fog_memory);  // in `a`; before history it is the extinction itself
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
   for_some_froxels(density.count, [&](int x, int y, int z) {
     const double expected = reference::fog_density(data.fog, volumes, middle_of(data, x, y, z));
-    ASSERT_NEAR(density.at(x, y, z).x, expected, 1e-3 * expected + 2e-6) << x << " " << y << " " << z;
+    ASSERT_NEAR(density.at(x, y, z).a, expected, 1e-3 * expected + 2e-6) << x << " " << y << " " << z;
   });
 }
 
@@ -170,9 +170,9 @@ TEST(FogInject, DoesNotDependOnTheOrderOfBoxes) {
   std::reverse(turned.fog.boxes.begin(), turned.fog.boxes.end());
   Lab other(turned, 160, 90);
   const FrameData data = misty_lab().prepare();
-  const Volume a = read(misty_lab(), data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
-  const Volume b = read(other, other.prepare(), pass::froxel_fog_chain_inject, resource::froxel_fog_density);
-  for (size_t i = 0; i < a.texels.data.size(); ++i) ASSERT_NEAR(a.texels.data[i].x, b.texels.data[i].x, 1e-3f * a.texels.data[i].x);
+  const Volume a = read(misty_lab(), data, pass::froxel_fog_merged, resource::froxel_fog_memory);
+  const Volume b = read(other, other.prepare(), pass::froxel_fog_merged, resource::froxel_fog_memory);
+  for (size_t i = 0; i < a.texels.data.size(); ++i) ASSERT_NEAR(a.texels.data[i].a, b.texels.data[i].a, 1e-3f * a.texels.data[i].a);
 }
 
 TEST(FogInject, MasksMoveAndComeBackAfterOnePeriod) {
@@ -184,13 +184,13 @@ TEST(FogInject, MasksMoveAndComeBackAfterOnePeriod) {
   const auto density_at = [&](float time) {
     FrameData data = lab.prepare();
     data.view.time = time;
-    return read(lab, data, pass::froxel_fog_chain_inject, resource::froxel_fog_density);
+    return read(lab, data, pass::froxel_fog_merged, resource::froxel_fog_memory);
   };
   const Volume start = density_at(0), between = density_at(1.3f), period = density_at(4);  // one repeat across, two along
   double moved = 0;
   for (size_t i = 0; i < start.texels.data.size(); ++i) {
-    ASSERT_NEAR(start.texels.data[i].x, period.texels.data[i].x, 2e-3f);
-    moved += std::abs(start.texels.data[i].x - between.texels.data[i].x);
+    ASSERT_NEAR(start.texels.data[i].a, period.texels.data[i].a, 2e-3f);
+    moved += std::abs(start.texels.data[i].a - between.texels.data[i].a);
   }
   EXPECT_GT(moved, 10.0);
 }
@@ -202,7 +202,7 @@ TEST(FogLight, IsWhatLampsSunAndSkyScatter) {
   FrameData data = lab.prepare();
   for (auto& column : data.view.world_to_sun.column) column.x = 100;  // everything lies beside the shadow map: nothing is in shadow
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
-  const Volume light = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_memory);
+  const Volume light = read(lab, data, pass::froxel_fog_merged, resource::froxel_fog_memory);
   for_some_froxels(light.count, [&](int x, int y, int z) {
     const glm::dvec3 p = middle_of(data, x, y, z);
     const glm::dvec3 expected = reference::scattered_light(data.view, data.fog, data.lights, p) * reference::to_double(data.fog.albedo) *
@@ -221,7 +221,7 @@ TEST(FogLight, TermsLeftOutAreTermsInTheDark) {
     if (!sky) data.view.ambient = {0, 0, 0};
     if (!lights)
       for (frame::Light& light : data.lights) light.color = {0, 0, 0};
-    return lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data;
+    return lab.image(data, pass::froxel_fog_merged, resource::froxel_fog_memory).data;
   };
   const uint32_t all = frame::FOG_SUN | frame::FOG_LIGHTS | frame::FOG_AMBIENT;
   for (uint32_t terms = 0; terms < 8; ++terms) {
@@ -232,20 +232,26 @@ TEST(FogLight, TermsLeftOutAreTermsInTheDark) {
 
 // ---- sums
 
+// Positive, of `bits` bits of fraction.
+float small_float(float value, int bits) {
+  const int lost = 23 - bits;
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(value) >> lost << lost);
+}
+
 TEST(FogIntegrate, IsTheSumInDoublePrecision) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const Volume inscatter = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_inscatter);
-  const Volume extinction = read(lab, data, pass::froxel_fog_chain_light, resource::froxel_fog_extinction);
-  const Volume light = read(lab, data, pass::froxel_fog_chain_integrate, resource::scattered);
-  const Volume through = read(lab, data, pass::froxel_fog_chain_integrate, resource::transmittance);
+  const Volume media = read(lab, data, pass::froxel_fog_merged, resource::froxel_fog_memory);
+  const Volume light = read(lab, data, pass::froxel_fog_merged, resource::scattered);
+  const Volume through = read(lab, data, pass::froxel_fog_merged, resource::transmittance);
   for (int y = 0; y < light.count.y; ++y)
     for (int x = 0; x < light.count.x; ++x) {
       std::vector<glm::dvec3> source;
       std::vector<double> density;
       for (int z = 0; z < light.count.z; ++z) {
-        source.emplace_back(glm::dvec3(inscatter.at(x, y, z)));
-        density.push_back(extinction.at(x, y, z).x);
+        const glm::vec4& m = media.at(x, y, z);  // what lies between the kernel's blocks has fewer bits
+        source.emplace_back(small_float(m.r, 6), small_float(m.g, 6), small_float(m.b, 5));
+        density.push_back(m.a);
       }
       const std::vector<reference::FogSum> sums = reference::march(data.view, data.fog, {x, y}, source, density);
       for (int z = 0; z < light.count.z; ++z) {
@@ -269,8 +275,8 @@ TEST(FogIntegrate, EvenFogIsExponential) {
   scene.fog.albedo = {0.5f, 1, 0.75f};
   Lab lab(scene, 96, 64);
   const FrameData data = lab.prepare();
-  const Volume light = read(lab, data, pass::froxel_fog_chain_integrate, resource::scattered);
-  const Volume through = read(lab, data, pass::froxel_fog_chain_integrate, resource::transmittance);
+  const Volume light = read(lab, data, pass::froxel_fog_merged, resource::scattered);
+  const Volume through = read(lab, data, pass::froxel_fog_merged, resource::transmittance);
   for (int y = 0; y < light.count.y; ++y)
     for (int x = 0; x < light.count.x; ++x)
       for (int z = 0; z < light.count.z; ++z) {
@@ -288,8 +294,8 @@ TEST(FogIntegrate, NoFogIsNothing) {
   scene.sun.ambient = {0.5f, 0.25f, 1};
   Lab lab(scene, 96, 64);
   const FrameData data = lab.prepare();
-  for (const glm::vec4& t : lab.image(data, pass::froxel_fog_chain_integrate, resource::transmittance).data) ASSERT_EQ(t.x, 1);
-  for (const glm::vec4& s : lab.image(data, pass::froxel_fog_chain_integrate, resource::scattered).data) ASSERT_EQ(glm::vec3(s), glm::vec3(0));
+  for (const glm::vec4& t : lab.image(data, pass::froxel_fog_merged, resource::transmittance).data) ASSERT_EQ(t.x, 1);
+  for (const glm::vec4& s : lab.image(data, pass::froxel_fog_merged, resource::scattered).data) ASSERT_EQ(glm::vec3(s), glm::vec3(0));
 }
 
 // ---- time
@@ -303,7 +309,7 @@ std::vector<glm::vec4> memory_of(Lab& lab, uint32_t frames, float blend, const s
     data.fog.blend = i == 0 ? 1 : blend;
     if (i + 1 < frames) lab.render(data);
   }
-  return lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data;
+  return lab.image(data, pass::froxel_fog_merged, resource::froxel_fog_memory).data;
 }
 
 double distance_between(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
@@ -350,45 +356,11 @@ TEST(FogHistory, SurvivesNewCascades) {
     data.fog.previous_ends = data.fog.ends;
     data.fog.ends = ends;
     data.fog.blend = 0.1f;
-    for (const glm::vec4& m : lab.image(data, pass::froxel_fog_chain_light, resource::froxel_fog_memory).data) {
+    for (const glm::vec4& m : lab.image(data, pass::froxel_fog_merged, resource::froxel_fog_memory).data) {
       ASSERT_NEAR(m.a, 0.125f, 2e-4f);
       ASSERT_NEAR(m.r, 0.0625f, 1e-4f);
     }
   }
-}
-
-// ---- bytes
-
-enum : uint32_t { kR16f = 76, kR11g11b10f = 122 };  // VkFormat
-
-// What a pass reads and writes of volumes, by its accesses and their formats; history apart.
-uint64_t volume_bytes(std::string_view name, uint64_t froxels) {
-  const Plan& plan = frame::plan();
-  uint64_t sum = 0;
-  for (const Pass& p : plan.passes) {
-    if (p.name != name) continue;
-    for (Index i = p.first_access; i < p.first_access + p.access_count; ++i) {
-      const Resource& what = plan.resources[plan.accesses[i].ref.resource];
-      if (what.depth == kNone || what.copies > 1) continue;
-      const auto format = static_cast<uint32_t>(what.format);
-      EXPECT_TRUE(format == kR16f || format == kR11g11b10f) << what.name;
-      sum += froxels * (format == kR11g11b10f ? 4 : 2);
-    }
-  }
-  return sum;
-}
-
-// The table of the talk, in kB: 5150, 10310, 15460, and 7730 for what the last pass writes. Its first figure counts another 16 bits a froxel, which
-// its other figures do not read; one write is enough here.
-TEST(FogBytes, AreThoseOfTheTalk) {
-  const uint64_t froxels = 112 * 90 * 128, half = 2 * froxels;
-  EXPECT_EQ(volume_bytes("froxel_fog.chain.inject", froxels), half);
-  EXPECT_EQ(volume_bytes("froxel_fog.chain.light", froxels), 4 * half);
-  EXPECT_EQ(volume_bytes("froxel_fog.chain.integrate", froxels), 6 * half);
-  const uint64_t chain = 11 * half, merged = 3 * half;
-  EXPECT_NEAR(static_cast<double>(chain + half) / 1000, 30920, 60);
-  EXPECT_NEAR(static_cast<double>(merged) / 1000, 7730, 15);
-  EXPECT_EQ((chain + half) / merged, 4u);
 }
 
 }  // namespace
