@@ -8,6 +8,7 @@
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
 #include "compiler/judge.h"
+#include "compiler/merge_features.h"
 #include "compiler/profiles.h"
 #include "compiler/variant_space.h"
 
@@ -136,6 +137,10 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   result.spectra = choose_kernels(root_path, read, options, cache ? &*cache : nullptr, result, diagnostics);
   if (diagnostics.has_errors()) return result;
   result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
+
+  // Features that only remove passes become conditions.
+  for (size_t g = 0; g < result.program.graphs.size(); ++g)
+    result.program = merge_features(std::move(result.program), dsl::GraphId{g}, options.fixed_features);
 
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
   if (options.list_tasks || options.shards > 0) {

@@ -135,6 +135,10 @@ FeatureDeclaration parse_feature(Parser& parser) {
   feature.name = parser.expect_name("the name of the feature");
   parser.expect(TokenKind::colon);
   if (!parser.silent && parser.accept_word("bool")) return parse_feature_rules(parser, {}, feature), feature;
+  if (!parser.silent && parser.accept_word("device")) {
+    feature.capability = parser.expect_name("what a device can do");
+    return parse_feature_rules(parser, {}, feature), feature;
+  }
   feature.is_bool = false;
   const Span open = parser.here();
   if (parser.silent || !parser.expect(TokenKind::left_brace)) return feature;

@@ -45,8 +45,9 @@ ast::SpectrumStatement parse_spectrum_statement(Parser& parser) {
   statement.spectrum = parser.expect_name("the name of a spectrum");
   if (!parser.silent) parser.expect_one_of("`by`", {"by"});
   if (!parser.silent) statement.masks = parse_place(parser, "a buffer of masks");
+  if (!parser.silent && parser.accept_word("into")) statement.kernels = parse_place(parser, "an image of kernels");
   statement.span = parser.since(begin);
-  complain_about_rest(parser, {"by"});
+  complain_about_rest(parser, {"by", "into"});
   return statement;
 }
 

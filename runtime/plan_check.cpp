@@ -184,6 +184,8 @@ uint64_t combinations(const Plan& plan, const Pass& pass) {
 void check_features(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.features.size(); ++i)
     c.that(plan.features[i].values >= 1 && plan.features[i].initial < plan.features[i].values, "feature", i, "initial value");
+  for (size_t i = 0; i < plan.features.size(); ++i)
+    c.that(plan.features[i].capability == Capability::none || plan.features[i].values == 2, "feature", i, "the device says yes or no");
   for (size_t i = 0; i < plan.pass_features.size(); ++i) c.index(plan.pass_features[i], plan.features.size(), "pass feature", i, "feature");
   for (size_t i = 0; i < plan.pipeline_choices.size(); ++i) c.optional(plan.pipeline_choices[i], plan.pipelines.size(), "choice", i, "pipeline");
 }
@@ -216,6 +218,12 @@ void check_small_tables(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.engine_sets.size(); ++i)
     c.that(plan.engine_sets[i].role <= SetRole::draw && plan.engine_sets[i].role != SetRole::pass, "engine set", i, "role");
   c.that(plan.conditions.size() <= 64, "plan", 0, "more than 64 conditions");
+  for (size_t i = 0; i < plan.feature_conditions.size(); ++i) {
+    const FeatureCondition& row = plan.feature_conditions[i];
+    c.index(row.condition, plan.conditions.size(), "feature condition", i, "condition");
+    c.index(row.feature, plan.features.size(), "feature condition", i, "feature");
+    if (c.ok()) c.that(plan.features[row.feature].values <= 64, "feature condition", i, "more than 64 values");
+  }
 }
 
 }  // namespace

@@ -244,7 +244,8 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
   const auto same = [&](const Feature& row) { return row.name == feature.name; };
   const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
   if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
-  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial});
+  const auto capability = static_cast<Capability>(feature.capability);
+  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability});
   return static_cast<Index>(b.plan.features.size() - 1);
 }
 
@@ -297,6 +298,19 @@ void bind_pass(Binder& b, Index index) {
   pass.push_stages = shaders.push_stages;
 }
 
+// Conditions that follow from features, of passes that the plan has.
+void add_feature_conditions(Binder& b) {
+  uint64_t used = 0;
+  for (const Pass& pass : b.plan.passes) used |= pass.guard;
+  for (size_t c = 0; c < b.program.conditions.size(); ++c) {
+    const dsl::Condition& condition = b.program.conditions.rows[c];
+    if (!condition.feature.valid() || (used >> c & 1) == 0) continue;
+    FeatureCondition row{static_cast<Index>(c), add_feature(b, b.program.features[condition.feature]), 0};
+    for (const uint32_t value : condition.values) row.values |= uint64_t{1} << value;
+    b.plan.feature_conditions.push_back(row);
+  }
+}
+
 void clear_tables(PlanData& plan) {
   plan.shaders.clear();
   plan.pipelines.clear();
@@ -311,6 +325,7 @@ void clear_tables(PlanData& plan) {
   plan.features.clear();
   plan.pass_features.clear();
   plan.pipeline_choices.clear();
+  plan.feature_conditions.clear();
   plan.engine_sets.clear();
 }
 
@@ -332,6 +347,7 @@ void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId gr
   for (const dsl::EngineSet& set : program.engine_sets) plan.engine_sets.push_back({intern(set.name), set_role(set.set)});
   for (const dsl::Params& params : graph.params) plan.params.push_back({intern(params.name), program.structs[params.type].size140, kNone});
   for (Index i = 0; i < plan.passes.size(); ++i) bind_pass(b, i);
+  add_feature_conditions(b);
   for (Index i = 0; i < plan.passes.size(); ++i)
     for (size_t p = 0; p < graph.params.size(); ++p)
       if (plan.program_pass[i] != kNone && graph.params.rows[p].pass == dsl::PassId{plan.program_pass[i]} && plan.passes[i].params_count > 0)
