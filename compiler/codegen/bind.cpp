@@ -260,7 +260,8 @@ void add_pipelines(Binder& b, Index pass_index, const dsl::Pass& source, const P
     choices.push_back(found != known.end() ? found->second : known.emplace(each, add_pipeline(b, pass_index, source, each)).first->second);
   }
   Pass& pass = b.plan.passes[pass_index];
-  pass.pipeline = choices.front();
+  const auto first = std::find_if(choices.begin(), choices.end(), [](Index choice) { return choice != kNone; });
+  pass.pipeline = first == choices.end() ? kNone : *first;
   if (choices.size() == 1) return;
   pass.first_choice = static_cast<Index>(b.plan.pipeline_choices.size());
   pass.choice_count = static_cast<uint32_t>(choices.size());
