@@ -172,6 +172,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   buffer forward_lights : u32[ceil(view / TILE).area * LIGHT_WORDS]   // that reach anything in front of it
   buffer tile_records   : TileRecord[ceil(view / SHADE_TILE).area]
   buffer tile_features  : u32[ceil(view / SHADE_TILE).area] readback  // union of what the lamps of a record can do
+  image  tile_kernels   : r32ui ceil(view / SHADE_TILE)               // which kernel of light_features shades the tile
 
   pass zbin_build : compute queue compute may {
     shader "passes/culling/zbin_build.comp" group 64 1 1
@@ -266,6 +267,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
   }
   pass deferred_light : compute queue compute may {
     shader "passes/lighting/deferred_light.comp" group 16 16 1
+    spectrum light_features by tile_features into tile_kernels
     params camera
     params fog
     read   scene.lights as storage
@@ -277,7 +279,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     read   occlusion as sampled(linear_clamp)
     with   shadow
     with   air
-    write  hdr as storage
+    write  hdr as storage disjoint
     dispatch over view
   }
   pass transparent : raster {
@@ -315,6 +317,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     with   air
     read   tile_records as storage
     read   tile_features as storage
+    read   tile_kernels as storage
     read   tile_lights as storage
     read   forward_lights as storage
     read   zbins as storage
@@ -330,6 +333,7 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
 
   pass luminance : compute queue compute may {
     shader "passes/post/luminance.comp" group 16 16 1
+    features subgroup_sums
     read   hdr as sampled
     atomic histogram as storage clear 0
     dispatch over view / 2

@@ -10,6 +10,7 @@
 #include "compiler/configurations.h"
 #include "compiler/fusion/fusion_figures.h"
 #include "compiler/judge.h"
+#include "compiler/merge_features.h"
 #include "compiler/profiles.h"
 #include "compiler/variant_space.h"
 #include "dsl/closest.h"
@@ -185,6 +186,9 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // Blocks become kernels, one by one or several together.
   const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
   if (diagnostics.has_errors()) return result;
+  // Features that only remove passes become conditions.
+  for (size_t g = 0; g < result.program.graphs.size(); ++g)
+    result.program = merge_features(std::move(result.program), dsl::GraphId{g}, options.fixed_features);
 
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
   if (options.list_tasks || options.shards > 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/merge_features.h"
 #include "compiler/variant_space.h"
 
 namespace rg::compiler {
@@ -57,7 +58,8 @@ std::vector<Configuration> expand_configurations(const dsl::Program& program, ds
   const Configuration values = decided(program, fixed, diagnostics);
   std::vector<bool> open = features_of_plans(program, program.graphs[graph]);
   std::vector<bool> selecting = features_of_shaders(program, program.graphs[graph]);
-  for (size_t f = 0; f < open.size(); ++f) selecting[f] = selecting[f] && !open[f] && values[f] == kFreeFeature;
+  const std::vector<bool> conditions = features_of_conditions(program, program.graphs[graph]);
+  for (size_t f = 0; f < open.size(); ++f) selecting[f] = (selecting[f] || conditions[f]) && !open[f] && values[f] == kFreeFeature;
   for (size_t f = 0; f < open.size(); ++f) open[f] = open[f] && values[f] == kFreeFeature;
   std::vector<Configuration> all;
   size_t total = 0;

@@ -13,7 +13,7 @@ namespace rg::compiler {
 using dsl::kFreeFeature;  // in a configuration: no plan depends on it, shaders are selected by it when a frame is recorded
 
 // Every combination of values of the features that the passes and resources of `graph` depend on and that keeps the features' rules, in counting
-// order, the first feature slowest. Features that only shaders see are kFreeFeature; others keep their initial value, or what the rules ask for.
+// order, the first feature slowest. Features that only shaders and conditions see are kFreeFeature; others keep their initial value, or what the rules ask for.
 // `fixed` holds "NAME=VALUE" of features decided at build time. Reports unknown names, more than `limit` plans with the features that multiply them,
 // and none at all.
 //

@@ -19,7 +19,7 @@ Plan PlanData::view() const {
   p.params = params, p.pass_params = pass_params;
   p.features = features, p.pass_features = pass_features, p.pipeline_choices = pipeline_choices;
   p.transfers = transfers, p.mip_limits = mip_limits;
-  p.engine_sets = engine_sets, p.conditions = conditions, p.culled = culled;
+  p.engine_sets = engine_sets, p.conditions = conditions, p.feature_conditions = feature_conditions, p.needs = needs, p.culled = culled;
   p.estimated_heap_bytes = estimated_heap_bytes;
   return p;
 }

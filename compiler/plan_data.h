@@ -54,6 +54,8 @@ struct PlanData {
   std::vector<MipLimit> mip_limits;
   std::vector<EngineSet> engine_sets;
   std::vector<std::string_view> conditions;
+  std::vector<FeatureCondition> feature_conditions;
+  std::vector<Capability> needs;
   std::vector<Culled> culled;
   uint64_t estimated_heap_bytes = 0;
 

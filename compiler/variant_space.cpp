@@ -27,6 +27,19 @@ uint64_t count_selectors(const dsl::Program& program, const dsl::Pass& pass, con
   return 0;
 }
 
+// False where rules forbid the values, or no frame runs the pass with them.
+bool selectable(const dsl::Program& program, const dsl::Pass& pass, const Configuration& configuration, const VariantRow& row) {
+  Configuration values = configuration;
+  for (size_t i = 0; i < pass.features.size(); ++i)
+    if (pass.features[i].feature.valid()) values[pass.features[i].feature.value] = row.values[i];
+  if (!dsl::allowed(program.features, values)) return false;
+  return std::all_of(pass.conditions.begin(), pass.conditions.end(), [&](const dsl::ConditionId id) {
+    const dsl::Condition& condition = program.conditions[id];
+    if (!condition.feature.valid() || values[condition.feature.value] == kFreeFeature) return true;
+    return std::find(condition.values.begin(), condition.values.end(), values[condition.feature.value]) != condition.values.end();
+  });
+}
+
 void add_rows(const dsl::Program& program, const dsl::Pass& pass, const Configuration& configuration, uint32_t index, bool live,
               std::vector<VariantRow>& rows, dsl::Diagnostics& diagnostics) {
   const std::vector<size_t> selecting = selecting_features(pass, configuration);
@@ -40,6 +53,7 @@ void add_rows(const dsl::Program& program, const dsl::Pass& pass, const Configur
       row.values[selecting[i]] = rest % values;
       rest /= values;
     }
+    row.live = live && selectable(program, pass, configuration, row);
     rows.push_back(std::move(row));
   }
 }

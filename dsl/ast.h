@@ -133,6 +133,7 @@ struct FeatureRule {  // `requires TERM`, `excludes TERM`: of the feature where 
 struct FeatureDeclaration {
   Name name;
   bool is_bool = true;
+  Name capability;  // `feature sums : device subgroup_arithmetic`; empty: the application decides
   std::vector<Name> values;
   std::vector<FeatureRule> rules;
 };
@@ -258,9 +259,10 @@ struct FeaturesStatement {  // features fog, shading
   std::vector<Name> names;
   Span span;
 };
-struct SpectrumStatement {  // spectrum light_features by tile_features
+struct SpectrumStatement {  // spectrum light_features by tile_features into tile_kernels
   Name spectrum;
   Expr masks;
+  std::optional<Expr> kernels;
   Span span;
 };
 using Statement = std::variant<AccessStatement, ShaderStatement, DispatchStatement, DrawStatement, TransferStatement, HostTransfer, ParamsStatement,

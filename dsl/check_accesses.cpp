@@ -267,6 +267,8 @@ void move_indices(Pass& pass, const std::vector<uint32_t>& moved) {
   map(pass.draw.arguments);
   map(pass.draw.counts);
   map(pass.dispatch.arguments);
+  map(pass.masks);
+  map(pass.kernels);
   for (Transfer& transfer : pass.transfers) map(transfer.src), map(transfer.dst);
 }
 

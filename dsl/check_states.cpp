@@ -103,8 +103,23 @@ bool first_visit(Symbol& symbol) {
   return true;
 }
 
+void read_capability(Checker& checker, const ast::Name& name, Feature& feature) {
+  static const std::vector<std::string_view> kNames = {
+#define RG_CAPABILITY(name, meaning) #name,
+#include "dsl/capability.def"
+#undef RG_CAPABILITY
+  };
+  const auto found = std::find(kNames.begin(), kNames.end(), name.text);
+  if (found != kNames.end()) return void(feature.capability = static_cast<Capability>(found - kNames.begin() + 1));
+  Diagnostic diagnostic(DiagnosticKind::UnknownName, name.span, {"capability of devices", std::string(name.text)});
+  const std::string guess = closest(name.text, kNames);
+  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  checker.diagnostics.report(std::move(diagnostic));
+}
+
 void read_feature(Checker& checker, const ast::FeatureDeclaration& node, Feature& feature) {
   if (node.is_bool) feature.values = {"off", "on"};
+  if (!node.capability.empty()) read_capability(checker, node.capability, feature);
   for (size_t i = 0; i < node.values.size(); ++i) {
     const ast::Name& value = node.values[i];
     for (size_t j = 0; j < i; ++j)

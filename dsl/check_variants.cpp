@@ -57,6 +57,32 @@ Spectrum read_spectrum(Checker& checker, uint32_t module, const ast::SpectrumDec
   return spectrum;
 }
 
+bool add_masks(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement) {
+  const Place place = find_place(checker, scope, statement.masks);
+  if (!place.ok()) return false;
+  const Resource& masks = scope.graph.resources[place.resource];
+  const bool fits = masks.kind == ResourceKind::buffer && masks.element == Type{Scalar::u32, 1, 1, {}, 0};
+  if (!fits) {
+    checker.report(DiagnosticKind::SpectrumMasks, statement.masks.span, {masks.name, std::string(statement.spectrum.text)});
+    return false;
+  }
+  out.pass.masks = add_plain_access(scope, out, place, Mode::read, Role::storage);
+  return true;
+}
+
+bool add_kernel_image(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement) {
+  if (!statement.kernels) return true;
+  const Place place = find_place(checker, scope, *statement.kernels);
+  if (!place.ok()) return false;
+  const Resource& image = scope.graph.resources[place.resource];
+  if (image.kind != ResourceKind::image || image.format != Format::r32ui) {
+    checker.report(DiagnosticKind::KernelImage, statement.kernels->span, {image.name, std::string(statement.spectrum.text)});
+    return false;
+  }
+  out.pass.kernels = add_plain_access(scope, out, place, Mode::write, Role::storage);
+  return true;
+}
+
 bool is_written_by_shader(const Access& access) { return is_shader_role(access.role) && is_written(access.mode); }
 
 }  // namespace
@@ -95,21 +121,14 @@ bool add_features(Checker& checker, const GraphScope& scope, Pass& pass, const a
 
 bool add_spectrum(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement) {
   const auto symbol = find_symbol(checker, scope.module, statement.spectrum, SymbolKind::spectrum);
-  const Place place = find_place(checker, scope, statement.masks);
-  if (!symbol || !place.ok()) return false;
+  if (!symbol) return false;
   if (out.pass.spectrum.valid()) {
     checker.report(DiagnosticKind::RepeatedWork, statement.span, {"spectrum"});
     return false;
   }
-  const Resource& masks = scope.graph.resources[place.resource];
-  const bool fits = masks.kind == ResourceKind::buffer && masks.element == Type{Scalar::u32, 1, 1, {}, 0};
-  if (!fits) {
-    checker.report(DiagnosticKind::SpectrumMasks, statement.masks.span, {masks.name, std::string(statement.spectrum.text)});
-    return false;
-  }
   out.pass.spectrum = spectrum_of(checker, *symbol);
-  out.pass.masks = add_plain_access(scope, out, place, Mode::read, Role::storage);
-  return true;
+  const bool masks = add_masks(checker, scope, out, statement);
+  return add_kernel_image(checker, scope, out, statement) && masks;
 }
 
 bool check_spectrum_pass(Checker& checker, const Graph& graph, const Pass& pass) {
@@ -122,7 +141,8 @@ bool check_spectrum_pass(Checker& checker, const Graph& graph, const Pass& pass)
   }
   bool good = true;
   for (const Access& access : pass.accesses) {
-    if (!is_written_by_shader(access) || access.disjoint || access.mode == Mode::atomic) continue;
+    const bool of_classifier = pass.kernels != kAll && &access == &pass.accesses[pass.kernels];
+    if (of_classifier || !is_written_by_shader(access) || access.disjoint || access.mode == Mode::atomic) continue;
     checker.report(DiagnosticKind::SpectrumNotDisjoint, access.span, {spectrum, graph.resources[access.resource].name})
         .fix({access.span.file, access.span.end, access.span.end}, " disjoint");
     good = false;

@@ -45,8 +45,9 @@ ast::SpectrumStatement parse_spectrum_statement(Parser& parser) {
   statement.spectrum = parser.expect_name("the name of a spectrum");
   if (!parser.silent) parser.expect_one_of("`by`", {"by"});
   if (!parser.silent) statement.masks = parse_place(parser, "a buffer of masks");
+  if (!parser.silent && parser.accept_word("into")) statement.kernels = parse_place(parser, "an image of kernels");
   statement.span = parser.since(begin);
-  complain_about_rest(parser, {"by"});
+  complain_about_rest(parser, {"by", "into"});
   return statement;
 }
 
@@ -102,6 +103,10 @@ ast::FeatureDeclaration parse_feature(Parser& parser) {
   feature.name = parser.expect_name("the name of the feature");
   parser.expect(TokenKind::colon);
   if (!parser.silent && parser.accept_word("bool")) return parse_feature_rules(parser, {}, feature), feature;
+  if (!parser.silent && parser.accept_word("device")) {
+    feature.capability = parser.expect_name("what a device can do");
+    return parse_feature_rules(parser, {}, feature), feature;
+  }
   feature.is_bool = false;
   const Span open = parser.here();
   if (parser.silent || !parser.expect(TokenKind::left_brace)) return feature;

@@ -226,7 +226,8 @@ void print_pass(Printer& at, const Graph& graph, size_t id, const Pass& pass) {
   for (const ShaderFeature& feature : pass.features)
     at.line("    feature {}{}", feature.name, feature.feature.valid() ? "" : fmt::format(" = {}", feature.value));
   if (pass.spectrum.valid())
-    at.line("    spectrum {} by {}", at.program.spectra[pass.spectrum].name, graph.resources[pass.accesses[pass.masks].resource].name);
+    at.line("    spectrum {} by {}{}", at.program.spectra[pass.spectrum].name, graph.resources[pass.accesses[pass.masks].resource].name,
+            pass.kernels == kAll ? "" : " into " + graph.resources[pass.accesses[pass.kernels].resource].name);
   for (size_t i = 0; i < pass.accesses.size(); ++i) print_access(at, graph, i, pass.accesses[i]);
   if (pass.draw.kind != DrawKind::none) print_draw(at, pass.draw);
   if (pass.dispatch.kind != DispatchKind::none) print_dispatch(at, pass.dispatch);
@@ -248,7 +249,7 @@ void print_graph(Printer& at, const Graph& graph) {
 }
 
 void print_feature(Printer& at, const Feature& feature) {
-  at.line("feature {}: {}", feature.name, fmt::join(feature.values, ", "));
+  at.line("feature {}: {}{}", feature.name, fmt::join(feature.values, ", "), feature.capability == Capability::none ? "" : " by device");
   for (const Feature::Rule& rule : feature.rules) {
     const Feature& other = at.program.features[rule.needs.feature];
     at.line("  {} needs {} {} {}", feature.values[rule.value], other.name, rule.needs.negated ? "!=" : "==", other.values[rule.needs.value]);

@@ -133,7 +133,9 @@ void visit(Printer& at, const FeaturesStatement& node) {
   for (const Name& name : node.names) out += " " + text(name);
   at.line(out);
 }
-void visit(Printer& at, const SpectrumStatement& node) { at.line("spectrum " + text(node.spectrum) + " by" + text(node.masks)); }
+void visit(Printer& at, const SpectrumStatement& node) {
+  at.line("spectrum " + text(node.spectrum) + " by" + text(node.masks) + (node.kernels ? " into" + text(*node.kernels) : ""));
+}
 
 void print_items(Printer& at, const std::vector<Item>& items);
 
@@ -227,7 +229,7 @@ void visit(Printer& at, const SamplerDeclaration& node) { at.line("sampler " + t
 void visit(Printer& at, const StateDeclaration& node) { at.line("state " + text(node.name) + settings_text(node.settings)); }
 
 void visit(Printer& at, const FeatureDeclaration& node) {
-  std::string out = "feature " + text(node.name) + ":" + (node.is_bool ? " bool" : "");
+  std::string out = "feature " + text(node.name) + ":" + (!node.capability.empty() ? " device " + text(node.capability) : node.is_bool ? " bool" : "");
   for (const Name& value : node.values) out += " " + text(value);
   for (const FeatureRule& rule : node.rules)
     out += " (" + (rule.value.empty() ? "" : text(rule.value) + " ") + (rule.excludes ? "excludes " : "requires ") + term_text(rule.term) + ")";

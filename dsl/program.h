@@ -343,6 +343,7 @@ struct Pass {
   std::vector<ShaderFeature> features = {};  // `features fog, shading`
   SpectrumId spectrum;     // `spectrum S by MASKS`: one kernel a mode, see compiler/spectrum/expand_spectra.h
   uint32_t masks = kAll;   // index into accesses: a u32 a group, its bits the spectrum's features
+  uint32_t kernels = kAll;  // ... `into IMAGE`: the kernel that each group got; kAll: nobody asks
   std::vector<std::string> interface_lines;  // GLSL behind the generated interface, from the compiler itself
   std::optional<Block> block;  // `block "x.glsl"`: the shader is one; compute
   FusionId fusion;         // the `fuse` it stands in
@@ -396,10 +397,19 @@ inline Format seen_format(const Resource& image, const Access& access) { return 
 
 // ---- the whole --------------------------------------------------------------------------------------------------
 
+// What a device is asked for by `feature NAME : device CAPABILITY`; rows of capability.def.
+enum class Capability : uint8_t {
+  none,
+#define RG_CAPABILITY(name, meaning) name,
+#include "dsl/capability.def"
+#undef RG_CAPABILITY
+};
+
 struct Feature {
   std::string name;
   std::vector<std::string> values;  // bool: {"off", "on"}
   uint32_t initial = 0;
+  Capability capability = Capability::none;  // the device has it or not: nobody else sets the feature
   Span span;
   struct Rule {  // where the feature has `value`, `needs` holds: `b: bool requires a`, `{ low, high excludes fog }`
     uint32_t value = 0;
@@ -415,6 +425,8 @@ struct Condition {  // `condition cache_miss[8]` is eight rows, `cache_miss[0]` 
   Span span;
   std::string family = {};   // `cache_miss`; empty: a single condition
   uint32_t index = 0, count = 0;
+  FeatureId feature = {};             // holds where the feature has one of `values`; invalid: the host says
+  std::vector<uint32_t> values = {};
   friend bool operator==(const Condition&, const Condition&) = default;
 };
 
@@ -441,6 +453,7 @@ struct Spectrum {
   std::vector<Member> members;
   uint32_t modes = 8;
   std::string profile;  // relative to the root file's folder; empty: none
+  std::vector<uint32_t> kernels = {};  // once chosen: their sets of features, in the order in which they are tried
   Span span, profile_span;
   friend bool operator==(const Spectrum&, const Spectrum&) = default;
 };

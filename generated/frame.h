@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "runtime/typed.h"
@@ -71,7 +72,16 @@ inline constexpr int32_t DEBUG_FORWARD = 14;
 inline constexpr int32_t DEBUG_FOG = 15;
 inline constexpr int32_t DEBUG_THROUGH = 16;
 inline constexpr int32_t DEBUG_FEATURES = 17;
-inline constexpr int32_t DEBUG_COUNT = 18;
+inline constexpr int32_t DEBUG_KERNELS = 18;
+inline constexpr int32_t DEBUG_COUNT = 19;
+
+namespace spectrum {
+// passes/lighting/lighting.rg:11
+struct light_features {
+  static constexpr std::string_view features[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};  // by bit of a mask
+  static constexpr uint32_t kernels[] = {0x1, 0x16, 0xc1, 0x9f, 0x1a1, 0xb7, 0x1bf, 0x1ff};  // the masks they serve, in the order in which they are tried
+};
+}  // namespace spectrum
 
 struct View {  // passes/view/view.rg:6
   rg::mat4 world_to_view = {};
@@ -278,7 +288,7 @@ static_assert(offsetof(DrawArguments, instance_count) == 4);
 static_assert(offsetof(DrawArguments, first_vertex) == 8);
 static_assert(offsetof(DrawArguments, first_instance) == 12);
 
-struct PropDraw {  // passes/geometry/geometry.rg:7
+struct PropDraw {  // passes/geometry/geometry.rg:5
   rg::mat3x4 model = {};
   rg::mat3x4 previous = {};
   rg::vec3 tint = {};
@@ -294,12 +304,12 @@ static_assert(offsetof(PropDraw, swing) == 108);
 static_assert(offsetof(PropDraw, swing_before) == 112);
 static_assert(offsetof(PropDraw, sky) == 116);
 
-struct GlassDraw {  // passes/geometry/geometry.rg:8
+struct GlassDraw {  // passes/geometry/geometry.rg:6
   uint32_t instance = 0;
 };
 static_assert(sizeof(GlassDraw) == 4);
 
-struct HologramDraw {  // passes/geometry/geometry.rg:9
+struct HologramDraw {  // passes/geometry/geometry.rg:7
   rg::mat4 model_to_clip = {};
   rg::vec4 color = {};
 };
@@ -346,7 +356,7 @@ static_assert(offsetof(Fog, jitter) == 80);
 static_assert(offsetof(Fog, spare) == 92);
 static_assert(offsetof(Fog, count) == 96);
 
-struct Exposure {  // passes/post/post.rg:6
+struct Exposure {  // passes/post/post.rg:9
   float scale = 0;
   float log_luminance = 0;
   float target = 0;
@@ -392,19 +402,19 @@ struct Conditions {
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:66
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:48
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:122
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:104
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:227
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:210
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:276
+struct TransparentPass : rg::RasterRecording {  // passes.rg:260
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:297
+struct HologramPass : rg::RasterRecording {  // passes.rg:281
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -422,170 +432,198 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 55, .shaders = 33, .pipelines = 50, .barrier_groups = 31, .image_barriers = 71, .buffer_barriers = 27, .batches = 1,
-     .heap_bytes = 19021056, .unaliased_bytes = 23461888, .lower_bound_bytes = 19021056};
+    {.passes = 66, .shaders = 44, .pipelines = 61, .barrier_groups = 31, .image_barriers = 79, .buffer_barriers = 29, .batches = 1,
+     .heap_bytes = 19117312, .unaliased_bytes = 24802304, .lower_bound_bytes = 19116288};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
-    {.group = 1},  // mesh_cull_world_clear
+    {.group = 1},  // mesh_cull_clear
     {.position = 1, .group = 2, .barriers = 2},  // mesh_cull
-    {.position = 2, .group = 3, .barriers = 5},  // sun_shadow_world
-    {.position = 3, .group = 3},  // lamp_cull
-    {.position = 4, .group = 3},  // depth_world
-    {.position = 5, .group = 4, .barriers = 4},  // sun_shadow_props
-    {.position = 6, .group = 4},  // lamp_shadow_world_0
-    {.position = 7, .group = 4},  // lamp_shadow_world_1
+    {.position = 2, .group = 2},  // lamp_cull
+    {.position = 3, .group = 3, .barriers = 6},  // sun_shadow_world
+    {.position = 4, .group = 3},  // lamp_shadow_world_0
+    {.position = 5, .group = 3},  // lamp_shadow_world_1
+    {.position = 6, .group = 3},  // depth_world
+    {.position = 7, .group = 4, .barriers = 4},  // sun_shadow_props
     {.position = 8, .group = 4},  // lamp_shadow_world_2
-    {.position = 9, .group = 4},  // depth_props
-    {.position = 10, .group = 5, .barriers = 4},  // lamp_shadow_world_3
-    {.position = 11, .group = 5},  // lamp_shadow_world_4
-    {.position = 12, .group = 5},  // depth_range_first
-    {.position = 13, .group = 6, .barriers = 3},  // lamp_shadow_world_5
-    {.position = 14, .group = 6},  // depth_range_down_1
-    {.position = 15, .group = 7, .barriers = 3},  // lamp_shadow_world_6
-    {.position = 16, .group = 7},  // lamp_shadow_world_7
-    {.position = 17, .group = 7},  // depth_range_down_2
-    {.position = 18, .group = 8, .barriers = 1},  // froxel_fog_clusters_cull
-    {.position = 19, .group = 8},  // depth_range_down_3
-    {.position = 20, .group = 9, .barriers = 9},  // froxel_fog_merged
-    {.position = 21, .group = 9},  // depth_range_down_4
-    {.position = 22, .group = 10, .barriers = 1},  // depth_range_down_5
-    {.position = 23, .group = 11, .barriers = 1},  // depth_range_down_6
-    {.position = 24, .group = 12, .barriers = 7},  // depth_range_down_7
-    {.position = 25, .group = 12},  // zbin_build_clear
-    {.position = 26, .group = 12},  // light_occlusion_clear
-    {.position = 27, .group = 12},  // gbuffer_world
-    {.position = 28, .group = 13, .barriers = 9},  // zbin_build
-    {.position = 29, .group = 13},  // light_occlusion
-    {.position = 30, .group = 13},  // gbuffer_props
-    {.position = 31, .group = 14, .barriers = 5},  // zbin_pack
-    {.position = 32, .group = 14},  // light_cull
-    {.position = 33, .group = 14},  // tile_cull
-    {.position = 34, .group = 14},  // ambient_occlusion
-    {.position = 35, .group = 15, .barriers = 10},  // deferred_light
-    {.position = 36, .group = 16, .barriers = 2},  // transparent
-    {.position = 37, .group = 17, .barriers = 1},  // hologram
-    {.position = 38, .group = 18, .barriers = 3},  // resolve_temporal
-    {.position = 39, .group = 19, .barriers = 3},  // bloom_first
-    {.position = 40, .group = 20, .barriers = 1},  // bloom_down_1
-    {.position = 41, .group = 21, .barriers = 3},  // debug_view
-    {.position = 42, .group = 21},  // bloom_down_2
-    {.position = 43, .group = 22, .barriers = 1},  // luminance_clear
-    {.position = 44, .group = 22},  // bloom_down_3
-    {.position = 45, .group = 23, .barriers = 2},  // luminance
-    {.position = 46, .group = 23},  // bloom_down_4
-    {.position = 47, .group = 24, .barriers = 2},  // expose
-    {.position = 48, .group = 24},  // bloom_down_5
-    {.position = 49, .group = 25, .barriers = 2},  // bloom_up_1
-    {.position = 50, .group = 26, .barriers = 2},  // bloom_up_2
-    {.position = 51, .group = 27, .barriers = 2},  // bloom_up_3
-    {.position = 52, .group = 28, .barriers = 2},  // bloom_up_4
-    {.position = 53, .group = 29, .barriers = 2},  // bloom_up_5
-    {.position = 54, .group = 30, .barriers = 4},  // tonemap
+    {.position = 9, .group = 4},  // lamp_shadow_world_3
+    {.position = 10, .group = 4},  // depth_props
+    {.position = 11, .group = 5, .barriers = 4},  // lamp_shadow_world_4
+    {.position = 12, .group = 5},  // lamp_shadow_world_5
+    {.position = 13, .group = 5},  // depth_range_first
+    {.position = 14, .group = 6, .barriers = 3},  // lamp_shadow_world_6
+    {.position = 15, .group = 6},  // lamp_shadow_world_7
+    {.position = 16, .group = 6},  // froxel_fog_clusters_cull
+    {.position = 17, .group = 6},  // depth_range_down_1
+    {.position = 18, .group = 7, .barriers = 3},  // froxel_fog_chain_inject
+    {.position = 19, .group = 7},  // depth_range_down_2
+    {.position = 20, .group = 8, .barriers = 9},  // froxel_fog_chain_light
+    {.position = 21, .group = 8},  // depth_range_down_3
+    {.position = 22, .group = 9, .barriers = 5},  // froxel_fog_chain_integrate
+    {.position = 23, .group = 9},  // depth_range_down_4
+    {.position = 24, .group = 10, .barriers = 1},  // depth_range_down_5
+    {.position = 25, .group = 11, .barriers = 1},  // depth_range_down_6
+    {.position = 26, .group = 12, .barriers = 7},  // depth_range_down_7
+    {.position = 27, .group = 12},  // zbin_build_clear
+    {.position = 28, .group = 12},  // light_occlusion_clear
+    {.position = 29, .group = 12},  // gbuffer_world
+    {.position = 30, .group = 13, .barriers = 9},  // zbin_build
+    {.position = 31, .group = 13},  // light_occlusion
+    {.position = 32, .group = 13},  // tile_cull
+    {.position = 33, .group = 13},  // gbuffer_props
+    {.position = 34, .group = 13},  // deferred_light_reset
+    {.position = 35, .group = 14, .barriers = 8},  // zbin_pack
+    {.position = 36, .group = 14},  // light_cull
+    {.position = 37, .group = 14},  // ambient_occlusion
+    {.position = 38, .group = 14},  // deferred_light_classify
+    {.position = 39, .group = 15, .barriers = 12},  // deferred_light_0
+    {.position = 40, .group = 15},  // deferred_light_1
+    {.position = 41, .group = 15},  // deferred_light_2
+    {.position = 42, .group = 15},  // deferred_light_3
+    {.position = 43, .group = 15},  // deferred_light_4
+    {.position = 44, .group = 15},  // deferred_light_5
+    {.position = 45, .group = 15},  // deferred_light_6
+    {.position = 46, .group = 15},  // deferred_light_7
+    {.position = 47, .group = 16, .barriers = 2},  // transparent
+    {.position = 48, .group = 17, .barriers = 1},  // hologram
+    {.position = 49, .group = 18, .barriers = 3},  // resolve_temporal
+    {.position = 50, .group = 19, .barriers = 3},  // bloom_first
+    {.position = 51, .group = 20, .barriers = 1},  // bloom_down_1
+    {.position = 52, .group = 21, .barriers = 1},  // bloom_down_2
+    {.position = 53, .group = 22, .barriers = 1},  // bloom_down_3
+    {.position = 54, .group = 23, .barriers = 3},  // debug_view
+    {.position = 55, .group = 23},  // luminance_clear
+    {.position = 56, .group = 23},  // bloom_down_4
+    {.position = 57, .group = 24, .barriers = 2},  // luminance
+    {.position = 58, .group = 24},  // bloom_down_5
+    {.position = 59, .group = 25, .barriers = 3},  // expose
+    {.position = 60, .group = 25},  // bloom_up_1
+    {.position = 61, .group = 26, .barriers = 2},  // bloom_up_2
+    {.position = 62, .group = 27, .barriers = 2},  // bloom_up_3
+    {.position = 63, .group = 28, .barriers = 2},  // bloom_up_4
+    {.position = 64, .group = 29, .barriers = 2},  // bloom_up_5
+    {.position = 65, .group = 30, .barriers = 4},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 18, .last = 36},  // scene_lights
-    {.bytes = 256, .first = 18, .last = 20},  // scene_fog_volumes
-    {.bytes = 256, .first = 1, .last = 36},  // scene_instances
-    {.bytes = 256, .first = 27, .last = 36},  // scene_materials
-    {.bytes = 256, .first = 2, .last = 36},  // scene_vertices
-    {.bytes = 256, .first = 2, .last = 36},  // scene_indices
-    {.bytes = 256, .first = 5, .last = 30},  // scene_props
-    {.bytes = 256, .first = 5, .last = 30},  // scene_prop_indices
-    {.bytes = 11206656, .first = 20, .last = 36},  // scene_albedo_maps
-    {.bytes = 11206656, .first = 27, .last = 27},  // scene_surface_maps
-    {.bytes = 983040, .first = 54, .last = 54},  // backbuffer
-    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 27},  // world_draws
-    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 2},  // sun_draws
+    {.bytes = 256, .first = 16, .last = 47},  // scene_lights
+    {.bytes = 256, .first = 16, .last = 18},  // scene_fog_volumes
+    {.bytes = 256, .first = 1, .last = 47},  // scene_instances
+    {.bytes = 256, .first = 29, .last = 47},  // scene_materials
+    {.bytes = 256, .first = 3, .last = 47},  // scene_vertices
+    {.bytes = 256, .first = 3, .last = 47},  // scene_indices
+    {.bytes = 256, .first = 7, .last = 33},  // scene_props
+    {.bytes = 256, .first = 7, .last = 33},  // scene_prop_indices
+    {.bytes = 11206656, .first = 18, .last = 47},  // scene_albedo_maps
+    {.bytes = 11206656, .first = 29, .last = 29},  // scene_surface_maps
+    {.bytes = 983040, .first = 65, .last = 65},  // backbuffer
+    {.bytes = 16384, .offset = 16252928, .transient = true, .first = 1, .last = 29},  // world_draws
+    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 3},  // sun_draws
     {.bytes = 256, .last = 1},  // cull_counts
-    {.bytes = 9437184, .transient = true, .first = 2, .last = 36},  // sun_shadow
-    {.bytes = 131072, .offset = 10485760, .transient = true, .first = 3, .last = 16},  // lamp_draws
-    {.bytes = 2097152, .first = 6, .last = 36},  // lamp_shadow
-    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 20, .last = 41},  // scattered
-    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 20, .last = 41},  // transmittance
-    {.bytes = 147456, .offset = 12845056, .transient = true, .first = 18, .last = 20},  // froxel_fog_cluster_volumes
-    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 18, .last = 20},  // froxel_fog_cluster_lights
+    {.bytes = 9437184, .offset = 983040, .transient = true, .first = 3, .last = 47},  // sun_shadow
+    {.bytes = 131072, .offset = 12926976, .transient = true, .first = 2, .last = 15},  // lamp_draws
+    {.bytes = 2097152, .first = 4, .last = 47},  // lamp_shadow
+    {.bytes = 589824, .offset = 10420224, .transient = true, .first = 22, .last = 54},  // scattered
+    {.bytes = 327680, .offset = 11010048, .transient = true, .first = 22, .last = 54},  // transmittance
+    {.bytes = 147456, .offset = 12779520, .transient = true, .first = 16, .last = 18},  // froxel_fog_cluster_volumes
+    {.bytes = 2359296, .offset = 10420224, .transient = true, .first = 16, .last = 20},  // froxel_fog_cluster_lights
+    {.bytes = 327680, .offset = 13697024, .transient = true, .first = 18, .last = 20},  // froxel_fog_density
+    {.bytes = 589824, .offset = 12779520, .transient = true, .first = 20, .last = 22},  // froxel_fog_inscatter
+    {.bytes = 327680, .offset = 13369344, .transient = true, .first = 20, .last = 22},  // froxel_fog_extinction
     {.bytes = 2359296, .first = 20, .last = 20},  // froxel_fog_memory
-    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 4, .last = 41},  // depth
-    {.bytes = 65536, .offset = 10420224, .transient = true, .first = 12, .last = 32},  // depth_range
-    {.bytes = 32768, .offset = 10485760, .transient = true, .first = 25, .last = 31},  // zbin_min
-    {.bytes = 32768, .offset = 10518528, .transient = true, .first = 25, .last = 31},  // zbin_max
-    {.bytes = 32768, .offset = 18988288, .transient = true, .first = 31, .last = 41},  // zbins
-    {.bytes = 256, .offset = 10551296, .transient = true, .first = 26, .last = 32},  // lights_seen
-    {.bytes = 230400, .offset = 18284544, .transient = true, .first = 32, .last = 41},  // tile_lights
-    {.bytes = 230400, .offset = 18514944, .transient = true, .first = 32, .last = 41},  // forward_lights
-    {.bytes = 242944, .offset = 18745344, .transient = true, .first = 33, .last = 41},  // tile_records
-    {.bytes = 3840, .first = 33, .last = 41},  // tile_features
-    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 27, .last = 41},  // albedo
-    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 27, .last = 41},  // normal
-    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 27, .last = 41},  // material
-    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 27, .last = 41},  // emissive
-    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 27, .last = 41},  // velocity
-    {.bytes = 131072, .offset = 18153472, .transient = true, .first = 34, .last = 41},  // occlusion
-    {.bytes = 1900544, .offset = 10420224, .transient = true, .first = 35, .last = 45},  // hdr
-    {.bytes = 983040, .transient = true, .first = 41, .last = 54},  // debug_image
-    {.bytes = 512, .offset = 1638400, .transient = true, .first = 43, .last = 47},  // histogram
-    {.bytes = 512, .first = 47, .last = 54},  // exposure
-    {.bytes = 3801088, .first = 38, .last = 54},  // color
-    {.bytes = 655360, .offset = 983040, .transient = true, .first = 39, .last = 54},  // bloom
+    {.bytes = 983040, .transient = true, .first = 6, .last = 54},  // depth
+    {.bytes = 65536, .offset = 16842752, .transient = true, .first = 13, .last = 36},  // depth_range
+    {.bytes = 32768, .offset = 16776192, .transient = true, .first = 27, .last = 35},  // zbin_min
+    {.bytes = 32768, .offset = 16808960, .transient = true, .first = 27, .last = 35},  // zbin_max
+    {.bytes = 32768, .offset = 16252928, .transient = true, .first = 35, .last = 54},  // zbins
+    {.bytes = 256, .offset = 16841728, .transient = true, .first = 28, .last = 36},  // lights_seen
+    {.bytes = 230400, .offset = 16285696, .transient = true, .first = 36, .last = 54},  // tile_lights
+    {.bytes = 230400, .offset = 16516096, .transient = true, .first = 36, .last = 54},  // forward_lights
+    {.bytes = 242944, .offset = 18874368, .transient = true, .first = 32, .last = 54},  // tile_records
+    {.bytes = 3840, .first = 32, .last = 54},  // tile_features
+    {.bytes = 65536, .offset = 18677760, .transient = true, .first = 38, .last = 54},  // tile_kernels
+    {.bytes = 983040, .offset = 11337728, .transient = true, .first = 29, .last = 54},  // albedo
+    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 54},  // normal
+    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 54},  // material
+    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 54},  // emissive
+    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 29, .last = 54},  // velocity
+    {.bytes = 131072, .offset = 18743296, .transient = true, .first = 37, .last = 54},  // occlusion
+    {.bytes = 1900544, .offset = 16777216, .transient = true, .first = 39, .last = 57},  // hdr
+    {.bytes = 983040, .offset = 983040, .transient = true, .first = 54, .last = 65},  // debug_image
+    {.bytes = 512, .offset = 1966080, .transient = true, .first = 55, .last = 59},  // histogram
+    {.bytes = 512, .first = 59, .last = 65},  // exposure
+    {.bytes = 3801088, .first = 49, .last = 65},  // color
+    {.bytes = 655360, .offset = 2031616, .transient = true, .first = 50, .last = 65},  // bloom
+    {.bytes = 256, .offset = 16746496, .transient = true, .first = 34, .last = 46},  // deferred_light_arguments
+    {.bytes = 29440, .offset = 16746752, .transient = true, .first = 38, .last = 46},  // deferred_light_tiles
 };
 // Indices of Plan::passes.
 namespace pass {
-inline constexpr rg::Index mesh_cull_world_clear = 0;
+inline constexpr rg::Index mesh_cull_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index sun_shadow_world = 2;
-inline constexpr rg::Index lamp_cull = 3;
-inline constexpr rg::Index depth_world = 4;
-inline constexpr rg::Index sun_shadow_props = 5;
-inline constexpr rg::Index lamp_shadow_world_0 = 6;
-inline constexpr rg::Index lamp_shadow_world_1 = 7;
+inline constexpr rg::Index lamp_cull = 2;
+inline constexpr rg::Index sun_shadow_world = 3;
+inline constexpr rg::Index lamp_shadow_world_0 = 4;
+inline constexpr rg::Index lamp_shadow_world_1 = 5;
+inline constexpr rg::Index depth_world = 6;
+inline constexpr rg::Index sun_shadow_props = 7;
 inline constexpr rg::Index lamp_shadow_world_2 = 8;
-inline constexpr rg::Index depth_props = 9;
-inline constexpr rg::Index lamp_shadow_world_3 = 10;
+inline constexpr rg::Index lamp_shadow_world_3 = 9;
+inline constexpr rg::Index depth_props = 10;
 inline constexpr rg::Index lamp_shadow_world_4 = 11;
-inline constexpr rg::Index depth_range_first = 12;
-inline constexpr rg::Index lamp_shadow_world_5 = 13;
-inline constexpr rg::Index depth_range_down_1 = 14;
-inline constexpr rg::Index lamp_shadow_world_6 = 15;
-inline constexpr rg::Index lamp_shadow_world_7 = 16;
-inline constexpr rg::Index depth_range_down_2 = 17;
-inline constexpr rg::Index froxel_fog_clusters_cull = 18;
-inline constexpr rg::Index depth_range_down_3 = 19;
-inline constexpr rg::Index froxel_fog_merged = 20;
-inline constexpr rg::Index depth_range_down_4 = 21;
-inline constexpr rg::Index depth_range_down_5 = 22;
-inline constexpr rg::Index depth_range_down_6 = 23;
-inline constexpr rg::Index depth_range_down_7 = 24;
-inline constexpr rg::Index zbin_build_clear = 25;
-inline constexpr rg::Index light_occlusion_clear = 26;
-inline constexpr rg::Index gbuffer_world = 27;
-inline constexpr rg::Index zbin_build = 28;
-inline constexpr rg::Index light_occlusion = 29;
-inline constexpr rg::Index gbuffer_props = 30;
-inline constexpr rg::Index zbin_pack = 31;
-inline constexpr rg::Index light_cull = 32;
-inline constexpr rg::Index tile_cull = 33;
-inline constexpr rg::Index ambient_occlusion = 34;
-inline constexpr rg::Index deferred_light = 35;
-inline constexpr rg::Index transparent = 36;
-inline constexpr rg::Index hologram = 37;
-inline constexpr rg::Index resolve_temporal = 38;
-inline constexpr rg::Index bloom_first = 39;
-inline constexpr rg::Index bloom_down_1 = 40;
-inline constexpr rg::Index debug_view = 41;
-inline constexpr rg::Index bloom_down_2 = 42;
-inline constexpr rg::Index luminance_clear = 43;
-inline constexpr rg::Index bloom_down_3 = 44;
-inline constexpr rg::Index luminance = 45;
-inline constexpr rg::Index bloom_down_4 = 46;
-inline constexpr rg::Index expose = 47;
-inline constexpr rg::Index bloom_down_5 = 48;
-inline constexpr rg::Index bloom_up_1 = 49;
-inline constexpr rg::Index bloom_up_2 = 50;
-inline constexpr rg::Index bloom_up_3 = 51;
-inline constexpr rg::Index bloom_up_4 = 52;
-inline constexpr rg::Index bloom_up_5 = 53;
-inline constexpr rg::Index tonemap = 54;
+inline constexpr rg::Index lamp_shadow_world_5 = 12;
+inline constexpr rg::Index depth_range_first = 13;
+inline constexpr rg::Index lamp_shadow_world_6 = 14;
+inline constexpr rg::Index lamp_shadow_world_7 = 15;
+inline constexpr rg::Index froxel_fog_clusters_cull = 16;
+inline constexpr rg::Index depth_range_down_1 = 17;
+inline constexpr rg::Index froxel_fog_chain_inject = 18;
+inline constexpr rg::Index depth_range_down_2 = 19;
+inline constexpr rg::Index froxel_fog_chain_light = 20;
+inline constexpr rg::Index depth_range_down_3 = 21;
+inline constexpr rg::Index froxel_fog_chain_integrate = 22;
+inline constexpr rg::Index depth_range_down_4 = 23;
+inline constexpr rg::Index depth_range_down_5 = 24;
+inline constexpr rg::Index depth_range_down_6 = 25;
+inline constexpr rg::Index depth_range_down_7 = 26;
+inline constexpr rg::Index zbin_build_clear = 27;
+inline constexpr rg::Index light_occlusion_clear = 28;
+inline constexpr rg::Index gbuffer_world = 29;
+inline constexpr rg::Index zbin_build = 30;
+inline constexpr rg::Index light_occlusion = 31;
+inline constexpr rg::Index tile_cull = 32;
+inline constexpr rg::Index gbuffer_props = 33;
+inline constexpr rg::Index deferred_light_reset = 34;
+inline constexpr rg::Index zbin_pack = 35;
+inline constexpr rg::Index light_cull = 36;
+inline constexpr rg::Index ambient_occlusion = 37;
+inline constexpr rg::Index deferred_light_classify = 38;
+inline constexpr rg::Index deferred_light_0 = 39;
+inline constexpr rg::Index deferred_light_1 = 40;
+inline constexpr rg::Index deferred_light_2 = 41;
+inline constexpr rg::Index deferred_light_3 = 42;
+inline constexpr rg::Index deferred_light_4 = 43;
+inline constexpr rg::Index deferred_light_5 = 44;
+inline constexpr rg::Index deferred_light_6 = 45;
+inline constexpr rg::Index deferred_light_7 = 46;
+inline constexpr rg::Index transparent = 47;
+inline constexpr rg::Index hologram = 48;
+inline constexpr rg::Index resolve_temporal = 49;
+inline constexpr rg::Index bloom_first = 50;
+inline constexpr rg::Index bloom_down_1 = 51;
+inline constexpr rg::Index bloom_down_2 = 52;
+inline constexpr rg::Index bloom_down_3 = 53;
+inline constexpr rg::Index debug_view = 54;
+inline constexpr rg::Index luminance_clear = 55;
+inline constexpr rg::Index bloom_down_4 = 56;
+inline constexpr rg::Index luminance = 57;
+inline constexpr rg::Index bloom_down_5 = 58;
+inline constexpr rg::Index expose = 59;
+inline constexpr rg::Index bloom_up_1 = 60;
+inline constexpr rg::Index bloom_up_2 = 61;
+inline constexpr rg::Index bloom_up_3 = 62;
+inline constexpr rg::Index bloom_up_4 = 63;
+inline constexpr rg::Index bloom_up_5 = 64;
+inline constexpr rg::Index tonemap = 65;
 }
 
 // Indices of Plan::resources.
@@ -611,29 +649,35 @@ inline constexpr rg::Index scattered = 17;
 inline constexpr rg::Index transmittance = 18;
 inline constexpr rg::Index froxel_fog_cluster_volumes = 19;
 inline constexpr rg::Index froxel_fog_cluster_lights = 20;
-inline constexpr rg::Index froxel_fog_memory = 21;
-inline constexpr rg::Index depth = 22;
-inline constexpr rg::Index depth_range = 23;
-inline constexpr rg::Index zbin_min = 24;
-inline constexpr rg::Index zbin_max = 25;
-inline constexpr rg::Index zbins = 26;
-inline constexpr rg::Index lights_seen = 27;
-inline constexpr rg::Index tile_lights = 28;
-inline constexpr rg::Index forward_lights = 29;
-inline constexpr rg::Index tile_records = 30;
-inline constexpr rg::Index tile_features = 31;
-inline constexpr rg::Index albedo = 32;
-inline constexpr rg::Index normal = 33;
-inline constexpr rg::Index material = 34;
-inline constexpr rg::Index emissive = 35;
-inline constexpr rg::Index velocity = 36;
-inline constexpr rg::Index occlusion = 37;
-inline constexpr rg::Index hdr = 38;
-inline constexpr rg::Index debug_image = 39;
-inline constexpr rg::Index histogram = 40;
-inline constexpr rg::Index exposure = 41;
-inline constexpr rg::Index color = 42;
-inline constexpr rg::Index bloom = 43;
+inline constexpr rg::Index froxel_fog_density = 21;
+inline constexpr rg::Index froxel_fog_inscatter = 22;
+inline constexpr rg::Index froxel_fog_extinction = 23;
+inline constexpr rg::Index froxel_fog_memory = 24;
+inline constexpr rg::Index depth = 25;
+inline constexpr rg::Index depth_range = 26;
+inline constexpr rg::Index zbin_min = 27;
+inline constexpr rg::Index zbin_max = 28;
+inline constexpr rg::Index zbins = 29;
+inline constexpr rg::Index lights_seen = 30;
+inline constexpr rg::Index tile_lights = 31;
+inline constexpr rg::Index forward_lights = 32;
+inline constexpr rg::Index tile_records = 33;
+inline constexpr rg::Index tile_features = 34;
+inline constexpr rg::Index tile_kernels = 35;
+inline constexpr rg::Index albedo = 36;
+inline constexpr rg::Index normal = 37;
+inline constexpr rg::Index material = 38;
+inline constexpr rg::Index emissive = 39;
+inline constexpr rg::Index velocity = 40;
+inline constexpr rg::Index occlusion = 41;
+inline constexpr rg::Index hdr = 42;
+inline constexpr rg::Index debug_image = 43;
+inline constexpr rg::Index histogram = 44;
+inline constexpr rg::Index exposure = 45;
+inline constexpr rg::Index color = 46;
+inline constexpr rg::Index bloom = 47;
+inline constexpr rg::Index deferred_light_arguments = 48;
+inline constexpr rg::Index deferred_light_tiles = 49;
 }
 
 class Frame {
@@ -657,7 +701,7 @@ class Frame {
 
   // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:23
   rg::Result<std::span<const uint32_t>> cull_counts();
-  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:157
+  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:139
   rg::Result<std::span<const uint32_t>> tile_features();
 
   rg::GraphInstance& instance() { return instance_; }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "runtime/capabilities.h"
 #include "runtime/device_state.h"
 #include "runtime/errors.h"
 
@@ -102,6 +103,8 @@ void add_queue(Device::State& state, const ExternalQueue& queue) {
   state.queues.push_back({queue.queue, queue.family, 0, 0, false, queue.mutex != nullptr ? queue.mutex : state.mutexes.back().get()});
 }
 
+bool Device::has(Capability capability) const { return (state_->capabilities & bit(capability)) != 0; }
+
 Status Device::wait_idle() {
   return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {});
 }
@@ -127,6 +130,7 @@ Result<Device> Device::adopt(const ExternalDevice& external) {
   if (missing == nullptr) missing = load_device_functions(state->vk, external.device);
   if (missing != nullptr) return Error{ErrorCode::unsupported, std::string("the external device lacks ") + missing + "; create it for Vulkan 1.3"};
   describe_physical_device(*state);
+  state->capabilities = subgroup_capabilities(*state) | enabled_capabilities(external.features);
   constexpr VkQueueFlags universal = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   if ((state->queues[0].flags & universal) != universal)
     return Error{ErrorCode::invalid_argument, "ExternalDevice::queue must do graphics and compute; its family " +

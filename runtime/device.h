@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "runtime/plan.h"
 #include "runtime/result.h"
 
 namespace rg {
@@ -23,6 +24,7 @@ struct DeviceOptions {
   std::function<void(bool is_error, std::string_view message)> on_message;  // validation messages
   std::vector<const char*> instance_extensions, device_extensions;
   std::vector<const char*> layers;  // below validation, in this order
+  std::vector<Capability> without;  // left alone although the device has them: what runs elsewhere can be tried here
 };
 // A queue that an engine lends. Vulkan wants calls on one queue to exclude each other: where the engine submits to it as well, both lock `mutex`
 // (which outlives the Device); null: only this Device submits to it.
@@ -38,6 +40,8 @@ struct EnabledFeatures {
   bool host_query_reset = false;     // else only passes of graphics and compute queues are timed
   bool pipeline_statistics = false;  // else there are none
   bool load_op_none = false;         // VK_EXT_load_store_op_none; else attachments that are not touched are loaded
+  // Answers to `feature NAME : device CAPABILITY`.
+  bool depth_bounds = false, conservative_rasterization = false, barycentrics = false, sample_locations = false;
 };
 // An engine's device. Must be Vulkan 1.3 with synchronization2, dynamicRendering and timelineSemaphore enabled. Nothing is owned: everything here
 // outlives the Device.
@@ -68,6 +72,7 @@ struct NullOptions {
   NullCounters* counters = nullptr;                         // outlives the device
   bool fails_from_then_on = false;                          // `fail_at` and all later ones fail: a lost device stays lost
   uint32_t compute_queues = 0, transfer_queues = 0;         // each kind in a family of its own, beside one universal queue
+  std::vector<Capability> capabilities = {};                // that it has
 };
 
 class Device {
@@ -96,6 +101,7 @@ class Device {
   Status wait_idle();
   std::string_view name() const;          // "llvmpipe (LLVM 15.0.6, 256 bits)"
   const VkPhysicalDeviceLimits& limits() const;
+  bool has(Capability capability) const;
   bool validating() const;                // the layer is really loaded
   uint64_t validation_messages() const;   // errors and warnings of synchronization and core checks so far
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred = 0) const;  // UINT32_MAX: none

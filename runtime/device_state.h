@@ -56,6 +56,7 @@ struct Device::State {
   bool multi_draw_indirect = false;
   bool host_query_reset = false;
   bool pipeline_statistics = false;
+  uint32_t capabilities = 0, without = 0;  // bits of Capability: present, and not to be looked for
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
   // Semaphores that a submit has waited for stay until 64 others have come: drivers (Mesa) touch them after they have signalled that the submit is done.
   std::array<std::shared_ptr<void>, 64> resting;

@@ -95,7 +95,7 @@ void take_turn(GraphInstance::State& state) {
 }
 
 // Everything before recording, the wait for the slot included.
-Status begin_frame(GraphInstance::State& state, const FrameInputs& inputs, const FrameSlot& slot) {
+Status begin_frame(GraphInstance::State& state, FrameInputs& inputs, const FrameSlot& slot) {
   RG_TRY(check_inputs(state, inputs));
   take_turn(state);
   RG_TRY(wait_for(state, slot.done));
@@ -118,7 +118,8 @@ void end_frame(GraphInstance::State& state, FrameSlot& slot) {
 
 }  // namespace
 
-Status execute_frame(GraphInstance::State& state, const FrameInputs& inputs) {
+Status execute_frame(GraphInstance::State& state, const FrameInputs& given) {
+  FrameInputs inputs = given;
   FrameSlot& slot = state.slots[state.frame % state.slots.size()];
   RG_TRY(begin_frame(state, inputs, slot));
   RG_TRY(record_frame(state, inputs, slot));
@@ -170,7 +171,8 @@ class OwnRecorder {
 
 }  // namespace
 
-Status record_own_frame(GraphInstance::State& state, const FrameInputs& inputs, std::span<const OwnCommands> parts, const FrameDone& done) {
+Status record_own_frame(GraphInstance::State& state, const FrameInputs& given, std::span<const OwnCommands> parts, const FrameDone& done) {
+  FrameInputs inputs = given;
   FrameSlot& slot = state.slots[state.frame % state.slots.size()];
   RG_TRY(begin_frame(state, inputs, slot));
   RG_TRY(wait_for_entry(state));  // a submit of the engine's waits for nothing of ours

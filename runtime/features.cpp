@@ -1,5 +1,7 @@
 #include "runtime/features.h"
 
+#include <cstring>
+
 namespace rg {
 
 namespace {
@@ -26,6 +28,7 @@ constexpr Feature<VkPhysicalDeviceFeatures> kCore[] = {
     RG_FEATURE(VkPhysicalDeviceFeatures, imageCubeArray, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, tessellationShader, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, geometryShader, false),
+    RG_FEATURE(VkPhysicalDeviceFeatures, depthBounds, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, depthClamp, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, depthBiasClamp, false),
     RG_FEATURE(VkPhysicalDeviceFeatures, fillModeNonSolid, false),
@@ -96,6 +99,16 @@ void enable_available(FeatureChain& wanted, const FeatureChain& available) {
   copy_available(kV11, available.v11, wanted.v11);
   copy_available(kV12, available.v12, wanted.v12);
   copy_available(kV13, available.v13, wanted.v13);
+}
+
+bool has_device_extension(const DeviceFunctions& vk, VkPhysicalDevice physical, const char* name) {
+  uint32_t count = 0;
+  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  for (const VkExtensionProperties& extension : extensions)
+    if (std::strcmp(extension.extensionName, name) == 0) return true;
+  return false;
 }
 
 }  // namespace rg

@@ -25,4 +25,6 @@ std::vector<std::string> missing_features(const FeatureChain& available);
 // Sets in `wanted` every known feature that `available` has, and no other.
 void enable_available(FeatureChain& wanted, const FeatureChain& available);
 
+bool has_device_extension(const DeviceFunctions& vk, VkPhysicalDevice physical, const char* name);
+
 }  // namespace rg

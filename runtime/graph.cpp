@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "runtime/barriers.h"
+#include "runtime/capabilities.h"
 #include "runtime/descriptors.h"
 #include "runtime/errors.h"
 #include "runtime/executor.h"
@@ -149,6 +150,11 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
   RG_TRY(check_plan(plan));
   RG_TRY(check_options(plan, options));
   auto state = std::make_unique<GraphInstance::State>(make_context(device, plan, options));
+  for (const Capability capability : plan.needs)
+    if ((device.capabilities & bit(capability)) == 0)
+      return Error{ErrorCode::unsupported, "plan `" + std::string(plan.name) + "` is for devices with " + std::string(name(capability)) + ", which `" +
+                                               device.name + "` lacks; take another variant of it"};
+  state->features.resize(plan.features.size());
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));
   RG_TRY(create_pass_objects(state->context, state->objects));

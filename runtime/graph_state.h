@@ -414,6 +414,7 @@ struct GraphInstance::State {
   std::vector<SemaphoreUse> waits, signals;  // of the next frame, from use_semaphores; with room
   std::vector<OwnCommands> own_commands;     // of the next frame, from use_commands; with room
   FrameDone own_done;
+  std::vector<uint32_t> features;  // of this frame, by Plan::features
   std::vector<Import> imports;   // of this frame, by slot
   bool imports_applied = false;  // to the barriers of `sized`
   uint64_t sized_at = 0;         // frames executed when `sized` was made

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "runtime/barriers.h"
+#include "runtime/capabilities.h"
 #include "runtime/descriptors.h"
 #include "runtime/errors.h"
 #include "runtime/transfers.h"
@@ -36,13 +37,33 @@ Status check_params(const Plan& plan, const FrameInputs& inputs) {
   return Done{};
 }
 
-Status check_features(const Plan& plan, const FrameInputs& inputs) {
+// The values of all features, and the conditions that follow.
+void decide_features(GraphInstance::State& state, FrameInputs& inputs) {
+  const Plan& plan = state.context.plan;
+  if (plan.features.empty()) return;
+  for (size_t i = 0; i < plan.features.size(); ++i) {
+    const Feature& feature = plan.features[i];
+    const bool by_device = feature.capability != Capability::none;
+    if (by_device) state.features[i] = (state.context.device.capabilities & bit(feature.capability)) != 0;
+    else state.features[i] = inputs.features.empty() ? feature.initial : inputs.features[i];
+  }
+  inputs.features = state.features;
+  for (const FeatureCondition& row : plan.feature_conditions) {
+    const uint64_t condition = uint64_t{1} << row.condition;
+    const bool holds = (row.values >> state.features[row.feature] & 1) != 0;
+    inputs.conditions = holds ? inputs.conditions | condition : inputs.conditions & ~condition;
+  }
+}
+
+Status check_features(GraphInstance::State& state, FrameInputs& inputs) {
+  const Plan& plan = state.context.plan;
   if (!inputs.features.empty() && inputs.features.size() < plan.features.size()) return wrong("too few feature values");
   for (size_t i = 0; i < plan.features.size() && !inputs.features.empty(); ++i)
     if (inputs.features[i] >= plan.features[i].values)
       return wrong("feature `" + std::string(plan.features[i].name) + "` has no value " + std::to_string(inputs.features[i]));
+  decide_features(state, inputs);
   for (const Pass& pass : plan.passes) {
-    if (pass.choice_count == 0) continue;
+    if (pass.choice_count == 0 || (pass.guard & ~inputs.conditions) != 0) continue;
     if (plan.pipeline_choices[pass.first_choice + selected_choice(plan, pass, inputs)] == kNone)
       return wrong("the feature values given exclude each other in pass `" + std::string(pass.name) + "`");
   }
@@ -73,11 +94,11 @@ uint32_t selected_choice(const Plan& plan, const Pass& pass, const FrameInputs& 
   return selector;
 }
 
-Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs) {
+Status check_inputs(GraphInstance::State& state, FrameInputs& inputs) {
   const Plan& plan = state.context.plan;
   RG_TRY(check_imports(state, inputs));
   RG_TRY(check_params(plan, inputs));
-  RG_TRY(check_features(plan, inputs));
+  RG_TRY(check_features(state, inputs));
   if (!state.host_passes.empty() && inputs.callbacks == nullptr) return wrong("no callbacks");
   for (const Index pass : state.host_passes)
     if (inputs.callbacks[plan.passes[pass].host_slot] == nullptr) return wrong("pass `" + std::string(plan.passes[pass].name) + "` has no callback");

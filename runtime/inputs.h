@@ -5,8 +5,9 @@
 
 namespace rg {
 
-// Sizes and presence of everything, against the plan. Nothing has happened where it fails.
-Status check_inputs(const GraphInstance::State& state, const FrameInputs& inputs);
+// Sizes and presence of everything, against the plan. Nothing has happened where it fails. `inputs` gets a value for every feature, the device's
+// where it decides, and the conditions that follow from them.
+Status check_inputs(GraphInstance::State& state, FrameInputs& inputs);
 
 // The combination of feature values that `inputs` selects for `pass`; see Plan::pipeline_choices. Values are within their bounds.
 uint32_t selected_choice(const Plan& plan, const Pass& pass, const FrameInputs& inputs);

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "runtime/capabilities.h"
 #include "runtime/device_state.h"
 #include "runtime/formats.h"
 #include "runtime/null_text.h"
@@ -406,6 +407,7 @@ Device Device::null(std::string* log, const NullOptions& options) {
   state->instance = reinterpret_cast<VkInstance>(null);
   fill_functions(state->vk);
   fill_description(*state);
+  for (const Capability capability : options.capabilities) state->capabilities |= bit(capability);
   return Device(std::move(state));
 }
 

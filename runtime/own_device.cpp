@@ -7,6 +7,7 @@
 
 #include "runtime/device_state.h"
 #include "runtime/errors.h"
+#include "runtime/capabilities.h"
 #include "runtime/features.h"
 
 namespace rg {
@@ -44,16 +45,6 @@ bool has_instance_extension(const DeviceFunctions& vk, const char* layer, const 
   vk.EnumerateInstanceExtensionProperties(layer, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   vk.EnumerateInstanceExtensionProperties(layer, &count, extensions.data());
-  for (const VkExtensionProperties& extension : extensions)
-    if (std::strcmp(extension.extensionName, name) == 0) return true;
-  return false;
-}
-
-bool has_device_extension(const DeviceFunctions& vk, VkPhysicalDevice physical, const char* name) {
-  uint32_t count = 0;
-  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-  std::vector<VkExtensionProperties> extensions(count);
-  vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
   for (const VkExtensionProperties& extension : extensions)
     if (std::strcmp(extension.extensionName, name) == 0) return true;
   return false;
@@ -246,6 +237,9 @@ Result<std::vector<const char*>> device_extensions(Device::State& state, const D
       return Error{ErrorCode::unsupported, std::string("the device lacks the extension ") + extension};
   state.load_op_none = has_device_extension(state.vk, state.physical, kLoadOpNone);
   if (state.load_op_none) extensions.push_back(kLoadOpNone);
+  for (const char* extension : capability_extensions(state))
+    if (std::none_of(extensions.begin(), extensions.end(), [&](const char* other) { return std::string_view(other) == extension; }))
+      extensions.push_back(extension);
   return extensions;
 }
 
@@ -293,14 +287,27 @@ void take_queues(Device::State& state, const std::vector<VkDeviceQueueCreateInfo
 }
 
 Status create_device(Device::State& state, const DeviceOptions& options) {
+  for (const Capability capability : options.without) state.without |= bit(capability);
   FeatureChain wanted;
   enable_features(state, wanted);
   const Result<std::vector<const char*>> extensions = device_extensions(state, options);
   if (!extensions) return extensions.error();
+  const auto enabled = [&](const char* name) {
+    return std::any_of(extensions->begin(), extensions->end(), [&](const char* other) { return std::string_view(other) == name; });
+  };
+  EnabledFeatures found;
+  found.depth_bounds = wanted.core.features.depthBounds == VK_TRUE;
+  found.conservative_rasterization = enabled(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
+  found.sample_locations = enabled(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
+  VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentrics{};
+  barycentrics.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
+  barycentrics.pNext = &wanted.core;
+  barycentrics.fragmentShaderBarycentric = found.barycentrics = enabled(VK_KHR_FRAGMENT_SHADER_BARYCENTRIC_EXTENSION_NAME);
+  state.capabilities = (subgroup_capabilities(state) | enabled_capabilities(found)) & ~state.without;
   const std::vector<VkDeviceQueueCreateInfo> queues = queue_infos(state);
   VkDeviceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
-  info.pNext = &wanted.core;
+  info.pNext = found.barycentrics ? static_cast<const void*>(&barycentrics) : &wanted.core;
   info.queueCreateInfoCount = static_cast<uint32_t>(queues.size());
   info.pQueueCreateInfos = queues.data();
   info.enabledExtensionCount = static_cast<uint32_t>(extensions->size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "runtime/capabilities.h"
 #include "runtime/errors.h"
 #include "runtime/render_pass.h"
 #include "runtime/resources.h"
@@ -229,6 +230,18 @@ Result<UniquePipeline> create_pipeline(const Context& context, const Pass& pass,
   return UniquePipeline(context.vk(), context.device.device, *handle);
 }
 
+// Whether the device answers its features as this combination of values has them; others may use what it lacks.
+bool fits_device(const Context& context, const Pass& pass, uint32_t selector) {
+  for (uint32_t i = pass.feature_count; i-- > 0;) {
+    const Feature& feature = context.plan.features[context.plan.pass_features[pass.first_feature + i]];
+    const uint32_t value = selector % feature.values;
+    selector /= feature.values;
+    const bool has = (context.device.capabilities & bit(feature.capability)) != 0;
+    if (feature.capability != Capability::none && value != has) return false;
+  }
+  return true;
+}
+
 // The pipeline of the pass, and those that other feature values choose; each once.
 Status create_pipelines(const Context& context, const Pass& pass, Shaders& shaders, PassObjects& out) {
   std::vector<std::pair<Index, VkPipeline>> known = {{kNone, VK_NULL_HANDLE}};
@@ -244,12 +257,15 @@ Status create_pipelines(const Context& context, const Pass& pass, Shaders& shade
       out.more_pipelines.push_back(std::move(*made));
     return known.back().second;
   };
-  if (const Result<VkPipeline> own = find(pass.pipeline); !own) return own.error();
-  for (const Index choice : context.plan.pipeline_choices.subspan(pass.first_choice, pass.choice_count)) {
-    const Result<VkPipeline> handle = find(choice);
+  if (pass.choice_count == 0)
+    if (const Result<VkPipeline> own = find(pass.pipeline); !own) return own.error();
+  for (uint32_t selector = 0; selector < pass.choice_count; ++selector) {
+    const Index choice = context.plan.pipeline_choices[pass.first_choice + selector];
+    const Result<VkPipeline> handle = find(fits_device(context, pass, selector) ? choice : kNone);
     if (!handle) return handle.error();
     out.choices.push_back(*handle);
   }
+  if (!out.pipeline && !out.more_pipelines.empty()) out.pipeline = std::move(out.more_pipelines.back()), out.more_pipelines.pop_back();
   return Done{};
 }
 

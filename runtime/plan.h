@@ -357,7 +357,29 @@ struct Batch {  // one VkSubmitInfo2; the batches of a plan are listed in a lega
   Index first_wait = 0, wait_count = 0;
   Index first_signal = 0, signal_count = 0;
 };
-struct Feature { std::string_view name = {}; uint32_t values = 2, initial = 0; };  // that shaders are chosen by
+// What a device can do beside what every device can; rows of dsl/capability.def.
+enum class Capability : uint8_t {
+  none,
+  subgroup_arithmetic,
+  subgroup_ballot,
+  subgroup_shuffle,
+  subgroup_quad,
+  subgroup_size_32,
+  subgroup_size_64,
+  depth_bounds,
+  conservative_rasterization,
+  barycentrics,
+  sample_locations
+};
+struct Feature {  // that shaders are chosen by, or passes run by
+  std::string_view name = {};
+  uint32_t values = 2, initial = 0;
+  Capability capability = Capability::none;  // 1 where the device has it, whatever the frame asks for
+};
+struct FeatureCondition {  // a condition that holds in frames in which the feature has one of the values
+  Index condition = 0, feature = 0;
+  uint64_t values = 0;  // a bit each
+};
 struct Culled { std::string_view pass = {}, reason = {}; };
 
 struct Plan {
@@ -404,6 +426,8 @@ struct Plan {
   std::span<const MipLimit> mip_limits = {};
   std::span<const EngineSet> engine_sets = {};
   std::span<const std::string_view> conditions = {};
+  std::span<const FeatureCondition> feature_conditions = {};  // the host sets the others
+  std::span<const Capability> needs = {};                     // what a device must have for this variant
   std::span<const Culled> culled = {};
   uint64_t estimated_heap_bytes = 0;
 };

@@ -241,6 +241,8 @@ void check_periods(const Plan& plan, Checker& c) {
 void check_features(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.features.size(); ++i)
     c.that(plan.features[i].values >= 1 && plan.features[i].initial < plan.features[i].values, "feature", i, "initial value");
+  for (size_t i = 0; i < plan.features.size(); ++i)
+    c.that(plan.features[i].capability == Capability::none || plan.features[i].values == 2, "feature", i, "the device says yes or no");
   for (size_t i = 0; i < plan.pass_features.size(); ++i) c.index(plan.pass_features[i], plan.features.size(), "pass feature", i, "feature");
   for (size_t i = 0; i < plan.pipeline_choices.size(); ++i) c.optional(plan.pipeline_choices[i], plan.pipelines.size(), "choice", i, "pipeline");
 }
@@ -276,6 +278,12 @@ void check_small_tables(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.params.size(); ++i) {
     c.that(plan.params[i].bytes <= 1u << 20, "parameter block", i, "more than 1 MiB");
     c.optional(plan.params[i].pass, plan.passes.size(), "parameter block", i, "pass");
+  }
+  for (size_t i = 0; i < plan.feature_conditions.size(); ++i) {
+    const FeatureCondition& row = plan.feature_conditions[i];
+    c.index(row.condition, plan.conditions.size(), "feature condition", i, "condition");
+    c.index(row.feature, plan.features.size(), "feature condition", i, "feature");
+    if (c.ok()) c.that(plan.features[row.feature].values <= 64, "feature condition", i, "more than 64 values");
   }
 }
 

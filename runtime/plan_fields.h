@@ -94,12 +94,13 @@ RG_PLAN_ROW(Step, kind, index);
 RG_PLAN_ROW(Wait, queue, value, stages, frames_ago);
 RG_PLAN_ROW(Signal, value, stages);
 RG_PLAN_ROW(Batch, queue, first_step, step_count, first_wait, wait_count, first_signal, signal_count);
-RG_PLAN_ROW(Feature, name, values, initial);
+RG_PLAN_ROW(Feature, name, values, initial, capability);
+RG_PLAN_ROW(FeatureCondition, condition, feature, values);
 RG_PLAN_ROW(Culled, pass, reason);
 RG_PLAN_ROW(Plan, version, name, variant, variant_count, variant_name, exprs, extents, resources, queues, batches, steps, waits, signals, groups,
             memory_barriers, image_barriers, buffer_barriers, entry, exit, acquires, releases, alias_clocks, passes, accesses, renderings, attachments,
             shaders, pipelines, pipeline_shaders, blends, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
-            pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions, culled, estimated_heap_bytes);
+            pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions, feature_conditions, needs, culled, estimated_heap_bytes);
 #undef RG_PLAN_ROW
 
 template <class Row, class F>

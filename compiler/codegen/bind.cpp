@@ -245,7 +245,8 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
   const auto same = [&](const Feature& row) { return row.name == feature.name; };
   const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
   if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
-  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial});
+  const auto capability = static_cast<Capability>(feature.capability);
+  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability});
   return static_cast<Index>(b.plan.features.size() - 1);
 }
 
@@ -260,7 +261,8 @@ void add_pipelines(Binder& b, Index pass_index, const dsl::Pass& source, const P
     choices.push_back(found != known.end() ? found->second : known.emplace(each, add_pipeline(b, pass_index, source, each)).first->second);
   }
   Pass& pass = b.plan.passes[pass_index];
-  pass.pipeline = choices.front();
+  const auto first = std::find_if(choices.begin(), choices.end(), [](Index choice) { return choice != kNone; });
+  pass.pipeline = first == choices.end() ? kNone : *first;
   if (choices.size() == 1) return;
   pass.first_choice = static_cast<Index>(b.plan.pipeline_choices.size());
   pass.choice_count = static_cast<uint32_t>(choices.size());
@@ -299,6 +301,19 @@ void bind_pass(Binder& b, Index index) {
   pass.push_stages = shaders.push_stages;
 }
 
+// Conditions that follow from features, of passes that the plan has.
+void add_feature_conditions(Binder& b) {
+  uint64_t used = 0;
+  for (const Pass& pass : b.plan.passes) used |= pass.guard;
+  for (size_t c = 0; c < b.program.conditions.size(); ++c) {
+    const dsl::Condition& condition = b.program.conditions.rows[c];
+    if (!condition.feature.valid() || (used >> c & 1) == 0) continue;
+    FeatureCondition row{static_cast<Index>(c), add_feature(b, b.program.features[condition.feature]), 0};
+    for (const uint32_t value : condition.values) row.values |= uint64_t{1} << value;
+    b.plan.feature_conditions.push_back(row);
+  }
+}
+
 void clear_tables(PlanData& plan) {
   plan.shaders.clear();
   plan.pipelines.clear();
@@ -313,6 +328,7 @@ void clear_tables(PlanData& plan) {
   plan.features.clear();
   plan.pass_features.clear();
   plan.pipeline_choices.clear();
+  plan.feature_conditions.clear();
   plan.engine_sets.clear();
 }
 
@@ -337,6 +353,7 @@ void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId gr
   for (const dsl::Params& params : graph.params)
     plan.params.push_back({intern(params.name), program.structs[params.type].size140, kNone, layout_of_struct(program, params.type)});
   for (Index i = 0; i < plan.passes.size(); ++i) bind_pass(b, i);
+  add_feature_conditions(b);
   for (Index i = 0; i < plan.passes.size(); ++i)
     for (size_t p = 0; p < graph.params.size(); ++p)
       if (plan.program_pass[i] != kNone && graph.params.rows[p].pass == dsl::PassId{plan.program_pass[i]} && plan.passes[i].params_count > 0)

@@ -23,7 +23,7 @@ void features(CppWriter& out, const std::vector<ApiFeature>& list) {
     out.line("enum class " + feature.type + " : uint32_t { " + values + " };");
   }
   if (list.empty()) return;
-  out.line("// Which variants of shaders this frame runs.");
+  out.line("// Which variants of shaders this frame runs, and which passes.");
   out.line("struct Features {");
   for (const ApiFeature& feature : list) {
     const std::string initial = feature.values.empty() ? (feature.initial ? "true" : "false") : feature.type + "::" + feature.values[feature.initial];
@@ -272,9 +272,9 @@ void rows(CppWriter& out, const std::string& type, const char* from, const char*
   out.line(std::string("  inputs.") + name + " = " + name + "_rows;");
 }
 
-void feature_rows(CppWriter& out, const std::vector<ApiFeature>& list) {
+void feature_rows(CppWriter& out, const std::vector<std::string>& values) {
   out.line("  const uint32_t feature_rows[] = {");
-  for (const ApiFeature& feature : list) out.line("      static_cast<uint32_t>(features." + feature.name + "),");
+  for (const std::string& value : values) out.line("      " + value + ",");
   out.line("  };");
   out.line("  inputs.features = feature_rows;");
 }
@@ -288,9 +288,10 @@ void submit(CppWriter& out, const FrameApi& api) {
   if (!api.params.empty()) rows(out, "std::span<const std::byte>", "params", "params", api.params, "rg::bytes_of(", ")");
   if (!api.engine_sets.empty()) rows(out, "VkDescriptorSet", "engine_sets", "engine_sets", api.engine_sets, "", ".value");
   if (!api.updates.empty()) rows(out, "std::span<const std::byte>", "updates", "updates", api.updates, "", "");
-  if (!api.features.empty()) feature_rows(out, api.features);
+  if (!api.feature_values.empty()) feature_rows(out, api.feature_values);
   for (size_t i = 0; i < api.condition_bits.size(); ++i)
-    out.line("  if (conditions." + api.condition_bits[i] + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
+    if (!api.condition_bits[i].empty())
+      out.line("  if (conditions." + api.condition_bits[i] + ") inputs.conditions |= uint64_t{1} << " + std::to_string(i) + ";");
   out.line("  return execute_inputs(inputs);");
   out.line("}");
 }

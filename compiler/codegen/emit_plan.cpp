@@ -22,6 +22,15 @@ Row& enumerator(Row& row, const char* field, const char* type, size_t value, std
   return value == 0 ? row : row.field(field, enum_text(type, value, names));
 }
 
+std::string capability_text(Capability capability) {
+  static constexpr const char* kNames[] = {"none",
+#define RG_CAPABILITY(name, meaning) #name,
+#include "dsl/capability.def"
+#undef RG_CAPABILITY
+  };
+  return std::string("Capability::") + kNames[static_cast<size_t>(capability)];
+}
+
 std::string dimension_text(Dimension dimension) { return enum_text("Dimension", static_cast<size_t>(dimension), {"d1", "d2", "d3", "cube"}); }
 std::string format_text(Format format) { return "Format{" + std::to_string(static_cast<uint32_t>(format)) + "}"; }
 
@@ -282,6 +291,8 @@ void PlanEmitter::plan() {
   RG_TABLE(mip_limits, kMipLimits);
   RG_TABLE(engine_sets, kEngineSets);
   RG_TABLE(conditions, kConditions);
+  RG_TABLE(feature_conditions, kFeatureConditions);
+  RG_TABLE(needs, kNeeds);
   RG_TABLE(culled, kCulled);
 #undef RG_TABLE
   row.number("estimated_heap_bytes", plan_.estimated_heap_bytes);
@@ -304,8 +315,17 @@ std::string PlanEmitter::run() {
   for (const std::string_view condition : plan_.conditions) conditions.push_back(cpp_string(condition));
   bindings();
   list(out_, "Index", "kPassParams", numbers(plan_.pass_params));
-  table("Feature", "kFeatures", plan_.features,
-        [](const Feature& f, size_t) { return Row().string("name", f.name).number("values", f.values, 2).number("initial", f.initial); });
+  table("Feature", "kFeatures", plan_.features, [](const Feature& f, size_t) {
+    Row row = Row().string("name", f.name).number("values", f.values, 2).number("initial", f.initial);
+    if (f.capability != Capability::none) row.field("capability", capability_text(f.capability));
+    return row;
+  });
+  table("FeatureCondition", "kFeatureConditions", plan_.feature_conditions, [](const FeatureCondition& f, size_t) {
+    return Row().number("condition", f.condition).number("feature", f.feature).number("values", f.values);
+  });
+  std::vector<std::string> needs;
+  for (const Capability capability : plan_.needs) needs.push_back(capability_text(capability));
+  list(out_, "Capability", "kNeeds", needs);
   list(out_, "Index", "kPassFeatures", numbers(plan_.pass_features));
   list(out_, "Index", "kPipelineChoices", numbers(plan_.pipeline_choices));
   list(out_, "std::string_view", "kConditions", conditions);

@@ -102,12 +102,15 @@ std::vector<ApiPass> collect_passes(const Source& s, const PlanNames& names) {
 }
 
 // `bool fog = true`, or `Shading shading = Shading::tiled` with an enum of its own.
-std::vector<ApiFeature> collect_features(const Source& s) {
+void collect_features(const Source& s, FrameApi& api) {
   std::vector<std::string> names;
   for (const Feature& feature : s.plan.features) names.push_back(cpp_name(feature.name));
   names = distinct(std::move(names));
-  std::vector<ApiFeature> features;
   for (size_t i = 0; i < names.size(); ++i) {
+    if (s.plan.features[i].capability != Capability::none) {
+      api.feature_values.emplace_back("0 /* " + names[i] + ": the device knows */");
+      continue;
+    }
     const auto same = [&](const dsl::Feature& feature) { return feature.name == s.plan.features[i].name; };
     const dsl::Feature& source = *std::find_if(s.program.features.begin(), s.program.features.end(), same);
     const bool is_bool = source.values == std::vector<std::string>{"off", "on"};
@@ -115,9 +118,9 @@ std::vector<ApiFeature> collect_features(const Source& s) {
     if (!is_bool)
       for (const std::string& value : source.values) row.values.push_back(cpp_name(value));
     row.values = distinct(std::move(row.values));
-    features.push_back(std::move(row));
+    api.feature_values.push_back("static_cast<uint32_t>(features." + row.name + ")");
+    api.features.push_back(std::move(row));
   }
-  return features;
 }
 
 std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& names) {
@@ -142,6 +145,10 @@ std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& nam
 void collect_conditions(const dsl::Program& program, FrameApi& api) {
   std::vector<size_t> member_of;
   for (const dsl::Condition& condition : program.conditions) {
+    if (condition.feature.valid()) {
+      member_of.push_back(SIZE_MAX);
+      continue;
+    }
     const bool goes_on = condition.count > 0 && condition.index > 0;
     if (!goes_on) api.conditions.push_back({condition.count > 0 ? condition.family : condition.name, "bool", ""});
     member_of.push_back(api.conditions.size() - 1);
@@ -150,11 +157,15 @@ void collect_conditions(const dsl::Program& program, FrameApi& api) {
   for (size_t bit = 0; bit < member_of.size(); ++bit) {
     const dsl::Condition& condition = program.conditions.rows[bit];
     const std::string index = condition.count > 0 ? "[" + std::to_string(condition.index) + "]" : "";
+    if (member_of[bit] == SIZE_MAX) {
+      api.condition_bits.emplace_back();
+      continue;
+    }
     api.condition_bits.push_back(api.conditions[member_of[bit]].name + index);
   }
   for (size_t bit = 0; bit < member_of.size(); ++bit) {
     const dsl::Condition& condition = program.conditions.rows[bit];
-    if (condition.count > 0 && condition.index == 0) api.conditions[member_of[bit]].name += "[" + std::to_string(condition.count) + "]";
+    if (condition.count > 0 && condition.index == 0 && member_of[bit] != SIZE_MAX) api.conditions[member_of[bit]].name += "[" + std::to_string(condition.count) + "]";
   }
 }
 
@@ -178,7 +189,7 @@ FrameApi collect_api(const dsl::Program& program, dsl::GraphId graph_id, const F
   collect_conditions(program, api);
   for (const EngineSet& set : frame.plan.engine_sets) api.engine_sets.push_back({std::string(set.name), "rg::Required<VkDescriptorSet>", ""});
   name_members(api.engine_sets);
-  api.features = collect_features(source);
+  collect_features(source, api);
   api.passes = collect_passes(source, api.names);
   api.readbacks = collect_readbacks(source, api.names);
   return api;

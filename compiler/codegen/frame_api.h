@@ -23,7 +23,7 @@ struct ApiPass {                                 // recorded by the host; by hos
   uint32_t push_stages = 0;
   bool raster = false, compute = false;
 };
-struct ApiFeature {  // that shaders are chosen by; without values: a bool
+struct ApiFeature {  // that shaders are chosen by, or passes run by; without values: a bool
   std::string name, type;
   std::vector<std::string> values;
   uint32_t initial = 0;
@@ -38,7 +38,8 @@ struct FrameApi {
   PlanNames names;
   std::vector<ApiExtent> extents;
   std::vector<ApiMember> imports, params, updates, conditions, engine_sets;
-  std::vector<std::string> condition_bits;  // by bit: the member or element of Conditions, `cache_miss[3]`
+  std::vector<std::string> condition_bits;  // by bit: the member or element of Conditions, `cache_miss[3]`; empty: it follows from a feature
+  std::vector<std::string> feature_values;  // by row of Plan::features: its value as an expression
   std::vector<ApiFeature> features;  // by index of Plan::features
   std::vector<ApiPass> passes;
   std::vector<ApiReadback> readbacks;

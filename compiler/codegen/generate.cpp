@@ -101,6 +101,21 @@ std::string constants_text(const dsl::Program& program) {
   return text.empty() ? "" : text + "\n";
 }
 
+// What the host needs to read masks and kernel numbers.
+std::string spectra_text(const dsl::Program& program, const dsl::SourceFiles& files) {
+  std::string text;
+  for (const dsl::Spectrum& spectrum : program.spectra) {
+    if (spectrum.kernels.empty()) continue;
+    std::string features, kernels;
+    for (const dsl::Spectrum::Member& member : spectrum.members) features += fmt::format("{}\"{}\"", features.empty() ? "" : ", ", member.name);
+    for (const uint32_t set : spectrum.kernels) kernels += fmt::format("{}{:#x}", kernels.empty() ? "" : ", ", set);
+    text += fmt::format("// {}\nstruct {} {{\n", origin(files, spectrum.span), cpp_name(spectrum.name));
+    text += fmt::format("  static constexpr std::string_view features[] = {{{}}};  // by bit of a mask\n", features);
+    text += fmt::format("  static constexpr uint32_t kernels[] = {{{}}};  // the masks they serve, in the order in which they are tried\n}};\n", kernels);
+  }
+  return text.empty() ? "" : "namespace spectrum {\n" + text + "}  // namespace spectrum\n\n";
+}
+
 // One plan of one graph: its API and the source file that holds its tables.
 struct PlanOutput {
   dsl::GraphId graph;
@@ -126,8 +141,8 @@ std::string header_text(const dsl::Program& program, const std::vector<PlanOutpu
                         const std::string& heading) {
   const std::string scope = cpp_name(program.module);
   std::string text =
-      heading + "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <utility>\n\n#include \"runtime/typed.h\"\n\n";
-  text += "namespace " + scope + " {\n\n" + constants_text(program) + emit_structs(program, files);
+      heading + "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n#include <utility>\n\n#include \"runtime/typed.h\"\n\n";
+  text += "namespace " + scope + " {\n\n" + constants_text(program) + spectra_text(program, files) + emit_structs(program, files);
   for (const PlanOutput& output : outputs) text += in_namespace(inner_scope(output.api, scope), emit_declarations(output.api, *output.frame));
   return text + "\n}  // namespace " + scope + "\n";
 }

@@ -11,15 +11,6 @@
 namespace rg::commands {
 namespace {
 
-using compiler::Mask;
-
-std::string names_of(const dsl::Spectrum& spectrum, Mask set) {
-  std::string text;
-  for (size_t i = 0; i < spectrum.members.size(); ++i)
-    if (set >> i & 1) text += (text.empty() ? "" : " ") + spectrum.members[i].name;
-  return text.empty() ? "nothing" : text;
-}
-
 // Expected cost by number of kernels, from one to a few more than there are.
 std::vector<double> curve_of(const compiler::SpectrumChoice& choice) {
   constexpr uint32_t kBeyond = 4;
@@ -38,7 +29,9 @@ SpectrumFacts facts_of(const dsl::Program& program, const compiler::SpectrumChoi
   const compiler::ModeChoice& c = choice.choice;
   SpectrumFacts facts;
   facts.name = spectrum.name, facts.pass = choice.pass;
+  for (const dsl::Spectrum::Member& member : spectrum.members) facts.features.push_back(member.name);
   facts.measured = choice.profile.has_value();
+  facts.timed = choice.profile && !choice.profile->costs.empty();
   if (choice.profile) facts.scenes = choice.profile->scenes, facts.tiles = choice.profile->tiles;
   facts.expected = c.expected, facts.bound = c.bound, facts.exact = c.exact;
   facts.one_kernel = c.one_kernel, facts.kernel_per_mask = c.kernel_per_mask;
@@ -46,13 +39,13 @@ SpectrumFacts facts_of(const dsl::Program& program, const compiler::SpectrumChoi
   facts.modes = choice.problem.modes;
   double total = 0;
   for (const auto& row : choice.problem.histogram) total += row.weight;
-  for (size_t k = 0; k < c.modes.size(); ++k) facts.kernels.push_back({names_of(spectrum, c.modes[k]), c.costs[k], 0});
+  for (size_t k = 0; k < c.modes.size(); ++k) facts.kernels.push_back({c.modes[k], c.costs[k], 0});
   for (size_t i = 0; i < choice.problem.histogram.size(); ++i) {
     const auto& row = choice.problem.histogram[i];
     const uint32_t mode = c.mode_of[i];
     facts.kernels[mode].share += row.weight / total;
-    const Mask extra = c.modes[mode] & ~row.mask;
-    facts.masks.push_back({names_of(spectrum, row.mask), row.weight / total, mode, extra == 0 ? "" : names_of(spectrum, extra)});
+    const double own = compiler::cost(choice.problem.costs, compiler::close(choice.problem, row.mask));
+    facts.masks.push_back({row.mask, row.weight / total, mode, c.modes[mode] & ~row.mask, c.costs[mode], std::min(own, c.costs[mode])});
   }
   std::stable_sort(facts.masks.begin(), facts.masks.end(), [](const MaskFacts& a, const MaskFacts& b) { return a.share > b.share; });
   return facts;
@@ -73,28 +66,43 @@ std::string text_of(const SpectrumFacts& facts) {
         fmt::format("  {:>2} kernels {:>10.4g}  {:5.2f} % less than {}\n", k + 1, facts.curve[k], 100 * (1 - facts.curve[k] / facts.curve[k - 1]), k);
   text += "  kernel      cost    tiles  features\n";
   for (size_t k = 0; k < facts.kernels.size(); ++k)
-    text += fmt::format("  {:>6} {:>9.4g} {:>6.2f} %  {}\n", k, facts.kernels[k].cost, 100 * facts.kernels[k].share, facts.kernels[k].features);
-  text += "  tiles     kernel  features; those it pays for in vain\n";
+    text += fmt::format("  {:>6} {:>9.4g} {:>6.2f} %  {}\n", k, facts.kernels[k].cost, 100 * facts.kernels[k].share, facts.names(facts.kernels[k].set));
+  text += "  tiles     kernel  in vain  features; those it pays for in vain\n";
   for (size_t i = 0; i < std::min(kShown, facts.masks.size()); ++i) {
     const MaskFacts& row = facts.masks[i];
     text +=
-        fmt::format("  {:>6.2f} % {:>6}  {}{}\n", 100 * row.share, row.kernel, row.features, row.superfluous.empty() ? "" : "; " + row.superfluous);
+        fmt::format("  {:>6.2f} % {:>6} {:>+6.1f} %  {}{}\n", 100 * row.share, row.kernel, 100 * (row.cost / row.own - 1), facts.names(row.mask),
+                    row.superfluous == 0 ? "" : "; " + facts.names(row.superfluous));
   }
   if (facts.masks.size() > kShown) text += fmt::format("  and {} more\n", facts.masks.size() - kShown);
   return text;
 }
 
+nlohmann::ordered_json names_json(const SpectrumFacts& facts, uint32_t set) {
+  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  for (size_t i = 0; i < facts.features.size(); ++i)
+    if (set >> i & 1) names.push_back(facts.features[i]);
+  return names;
+}
+
 nlohmann::ordered_json json_of(const SpectrumFacts& facts) {
   nlohmann::ordered_json json = {{"spectrum", facts.name},         {"pass", facts.pass},
-                                 {"measured", facts.measured},     {"scenes", facts.scenes},
-                                 {"tiles", facts.tiles},           {"expected", facts.expected},
-                                 {"bound", facts.bound},           {"exact", facts.exact},
-                                 {"one_kernel", facts.one_kernel}, {"kernel_per_mask", facts.kernel_per_mask},
+                                 {"features", facts.features},     {"measured", facts.measured},
+                                 {"costs", facts.timed ? "times" : "statistics"},
+                                 {"scenes", facts.scenes},         {"tiles", facts.tiles},
+                                 {"expected", facts.expected},     {"bound", facts.bound},
+                                 {"exact", facts.exact},           {"one_kernel", facts.one_kernel},
+                                 {"kernel_per_mask", facts.kernel_per_mask},
                                  {"by_kernels", facts.curve}};
   for (const KernelFacts& kernel : facts.kernels)
-    json["kernels"].push_back({{"features", kernel.features}, {"cost", kernel.cost}, {"share", kernel.share}});
+    json["kernels"].push_back({{"features", names_json(facts, kernel.set)}, {"cost", kernel.cost}, {"share", kernel.share}});
   for (const MaskFacts& mask : facts.masks)
-    json["masks"].push_back({{"features", mask.features}, {"share", mask.share}, {"kernel", mask.kernel}, {"superfluous", mask.superfluous}});
+    json["masks"].push_back({{"features", names_json(facts, mask.mask)},
+                             {"share", mask.share},
+                             {"kernel", mask.kernel},
+                             {"superfluous", names_json(facts, mask.superfluous)},
+                             {"cost", mask.cost},
+                             {"own_cost", mask.own}});
   return json;
 }
 

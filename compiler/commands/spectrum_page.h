@@ -8,18 +8,20 @@
 namespace rg::commands {
 
 struct KernelFacts {
-  std::string features;
+  uint32_t set = 0;  // bits: SpectrumFacts::features
   double cost = 0, share = 0;  // share of all tiles
 };
 struct MaskFacts {
-  std::string features;
+  uint32_t mask = 0;
   double share = 0;
   uint32_t kernel = 0;
-  std::string superfluous;  // features the kernel has and the mask lacks; empty: none
+  uint32_t superfluous = 0;   // features the kernel has and the mask lacks
+  double cost = 0, own = 0;   // of its kernel; of one that has the mask's features only
 };
 struct SpectrumFacts {
   std::string name, pass;
-  bool measured = false;
+  std::vector<std::string> features;
+  bool measured = false, timed = false;  // tiles were counted; costs are times
   std::vector<std::string> scenes;
   double tiles = 0;
   double expected = 0, bound = 0, one_kernel = 0, kernel_per_mask = 0;
@@ -28,6 +30,8 @@ struct SpectrumFacts {
   std::vector<double> curve;  // expected cost with 1, 2, ... kernels
   std::vector<KernelFacts> kernels;
   std::vector<MaskFacts> masks;  // by share, largest first
+
+  std::string names(uint32_t set) const;  // "shadows tubes"; "nothing"
 };
 
 // One self-contained HTML page: no script, no file beside it.

@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "compiler/shaders/floor.h"
 #include "compiler/shaders/shader_jobs.h"
 
 namespace rg::compiler {
@@ -237,16 +238,24 @@ void put(PassShaders& target, const VariantRow& row, size_t shader) {
 }
 
 void add_variants(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<VariantRow>& rows,
-                  const std::vector<std::vector<size_t>>& jobs, const std::vector<Words>& words, PassShaders& target, BundleBuilder& builder) {
+                  const std::vector<std::vector<size_t>>& jobs, const std::vector<Words>& words, PassShaders& target, BundleBuilder& builder,
+                  dsl::Diagnostics& diagnostics) {
   for (size_t u = 0; u < jobs.size(); ++u) {
     std::vector<size_t> shaders(rows.size(), kNone);
+    bool within = true;  // the floor
     for (size_t r = 0; r < rows.size(); ++r) {
       if (jobs[u][r] == kNone) continue;
+      within = within && check_floor(context, uses[u].shader, rows[r], words[jobs[u][r]], diagnostics);
       shaders[r] = builder.add(uses[u].shader.stage, uses[u].path, words[jobs[u][r]]);
       put(target, rows[r], shaders[r]);
     }
     if (!context.pass.features.empty() && !is_generated_fullscreen(uses[u]))
       builder.bundle.counts.push_back(count_variants(context, uses[u], rows, jobs[u], shaders));
+  }
+  // A choice for every combination, those that nobody can choose included.
+  for (const VariantRow& row : rows) {
+    auto& selectors = target.variants[row.configuration];
+    if (!selectors.empty() && selectors.size() <= row.selector) selectors.resize(row.selector + 1);
   }
   for (size_t r = rows.size(); r-- > 0;)
     if (rows[r].live && !jobs.empty()) target.shaders = target.variants[rows[r].configuration][rows[r].selector];
@@ -291,7 +300,7 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
     PassShaders& target = builder.bundle.passes[i];
     target.variants.resize(space.configurations);
     target.selecting = space.selecting.empty() ? std::vector<std::vector<size_t>>(space.configurations) : space.selecting[i];
-    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], words, target, builder);
+    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], words, target, builder, diagnostics);
   }
   builder.bundle.read_files = sources.readable_paths();
   return std::move(builder.bundle);

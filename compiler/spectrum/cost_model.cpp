@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -26,6 +27,18 @@ std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double
   return b;
 }
 
+// What is known of the set, or `estimate` between what is known of those below and above it.
+template <class Estimate>
+double among_measured(const CostModel& model, Mask set, Estimate estimate) {
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  for (const auto& [other, value] : model.measured) {
+    if (other == set) return value;
+    if ((other & ~set) == 0) least = std::max(least, value);
+    if ((set & ~other) == 0) most = std::min(most, value);
+  }
+  return std::max(least, std::min(most, estimate()));
+}
+
 }  // namespace
 
 double evaluate(const Additive& terms, Mask set) {
@@ -45,9 +58,7 @@ double register_factor(double registers) {
 }
 
 double cost(const CostModel& model, Mask set) {
-  const auto known = std::lower_bound(model.measured.begin(), model.measured.end(), set, [](const auto& row, Mask m) { return row.first < m; });
-  if (known != model.measured.end() && known->first == set) return known->second;
-  return std::max(0.0, evaluate(model.work, set)) * register_factor(evaluate(model.registers, set));
+  return among_measured(model, set, [&] { return std::max(0.0, evaluate(model.work, set)) * register_factor(evaluate(model.registers, set)); });
 }
 
 CostTable::Terms::Terms(const Additive& terms) : base(terms.base) {
@@ -75,10 +86,7 @@ double CostTable::Terms::sum(Mask set) const {
 CostTable::CostTable(const CostModel& model) : work_(model.work), registers_(model.registers), model_(model) {}
 
 double CostTable::operator()(Mask set) const {
-  const auto& measured = model_.measured;
-  const auto known = std::lower_bound(measured.begin(), measured.end(), set, [](const auto& row, Mask m) { return row.first < m; });
-  if (known != measured.end() && known->first == set) return known->second;
-  return std::max(0.0, work_.sum(set)) * register_factor(registers_.sum(set));
+  return among_measured(model_, set, [&] { return std::max(0.0, work_.sum(set)) * register_factor(registers_.sum(set)); });
 }
 
 Additive fit_terms(uint32_t features, const std::vector<std::pair<Mask, double>>& samples) {

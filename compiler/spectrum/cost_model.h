@@ -17,7 +17,8 @@ struct Additive {
 };
 double evaluate(const Additive& terms, Mask set);
 
-// Work times what registers cost in occupancy, and kernels that were measured as they were measured.
+// Work times what registers cost in occupancy. Kernels that were measured cost what was measured, and others no less than those of their subsets and no
+// more than those of their supersets.
 struct CostModel {
   Additive work;
   Additive registers{0, {}, {}};                  // scalars alive; 0: they cost nothing

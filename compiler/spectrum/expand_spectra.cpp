@@ -1,6 +1,8 @@
 #include "compiler/spectrum/expand_spectra.h"
 
 #include <algorithm>
+#include <functional>
+#include <set>
 
 #include "dsl/check_macro.h"
 
@@ -29,7 +31,8 @@ ExprId groups(dsl::Program& program, const dsl::Dispatch& dispatch, size_t axis)
 }
 
 struct Parts {  // of one expanded pass
-  dsl::ResourceId arguments, tiles, modes;
+  dsl::ResourceId arguments, tiles;
+  dsl::Access modes;  // the image of kernels
   ExprId width, height, area;
 };
 
@@ -62,6 +65,13 @@ dsl::Resource words(dsl::Program& program, const dsl::Pass& pass, const char* su
   return buffer;
 }
 
+dsl::Access own_image_of_kernels(dsl::Graph& graph, const dsl::Pass& pass, const Parts& parts) {
+  dsl::Resource modes = resource_of(pass, "modes");
+  modes.format = dsl::Format::r32ui;
+  modes.width = parts.width, modes.height = parts.height;
+  return access_to(graph.resources.add(std::move(modes)), dsl::Mode::write, dsl::Role::storage, "modes", pass.span);
+}
+
 Parts add_resources(dsl::Program& program, dsl::Graph& graph, const dsl::Pass& pass, size_t kernels) {
   Parts parts;
   parts.width = groups(program, pass.dispatch, 0), parts.height = groups(program, pass.dispatch, 1);
@@ -69,10 +79,8 @@ Parts add_resources(dsl::Program& program, dsl::Graph& graph, const dsl::Pass& p
   const auto count = static_cast<int64_t>(kernels);
   parts.arguments = graph.resources.add(words(program, pass, "arguments", constant(program, kArgumentWords * count)));
   parts.tiles = graph.resources.add(words(program, pass, "tiles", combine(program, ExprOp::mul, parts.area, constant(program, count))));
-  dsl::Resource modes = resource_of(pass, "modes");
-  modes.format = dsl::Format::r32ui;
-  modes.width = parts.width, modes.height = parts.height;
-  parts.modes = graph.resources.add(std::move(modes));
+  parts.modes = pass.kernels == dsl::kAll ? own_image_of_kernels(graph, pass, parts) : pass.accesses[pass.kernels];
+  parts.modes.name = "modes";
   return parts;
 }
 
@@ -141,7 +149,7 @@ dsl::Pass classify_pass(dsl::Program& program, const dsl::Pass& pass, const Part
   classify.accesses.push_back(std::move(masks));
   classify.accesses.push_back(access_to(parts.arguments, dsl::Mode::update, dsl::Role::storage, "arguments", pass.span));
   classify.accesses.push_back(access_to(parts.tiles, dsl::Mode::write, dsl::Role::storage, "tiles", pass.span));
-  classify.accesses.push_back(access_to(parts.modes, dsl::Mode::write, dsl::Role::storage, "modes", pass.span));
+  classify.accesses.push_back(parts.modes);
   classify.shaders.push_back({dsl::stage_compute, "rgc/" + pass.name + "_classify.comp", pass.span, classify_text(sets)});
   classify.dispatch.kind = dsl::DispatchKind::over;
   classify.dispatch.size[0] = parts.width, classify.dispatch.size[1] = parts.height, classify.dispatch.size[2] = constant(program, 1);
@@ -162,8 +170,9 @@ void add_features(const dsl::Spectrum& spectrum, const std::vector<Mask>& sets, 
 dsl::Pass kernel_pass(dsl::Program& program, const dsl::Pass& pass, const Parts& parts, const std::vector<Mask>& sets, size_t kernel) {
   dsl::Pass row = pass;
   row.name = kernel_name(pass.name, kernel);
-  row.accesses.erase(row.accesses.begin() + pass.masks);
-  row.masks = dsl::kAll;
+  const std::set<uint32_t, std::greater<>> of_classifier = {pass.masks, pass.kernels == dsl::kAll ? pass.masks : pass.kernels};
+  for (const uint32_t access : of_classifier) row.accesses.erase(row.accesses.begin() + access);
+  row.masks = row.kernels = dsl::kAll;
   row.accesses.push_back(access_to(parts.tiles, dsl::Mode::read, dsl::Role::storage, "rg_tiles", pass.span));
   dsl::Access arguments = access_to(parts.arguments, dsl::Mode::read, dsl::Role::indirect, "rg_arguments", pass.span);
   const auto bytes = static_cast<int64_t>(kArgumentWords) * kWordBytes;
@@ -231,6 +240,7 @@ dsl::Program expand_spectra(dsl::Program program, const std::vector<KernelSets>&
     expand_graph(program, graph, kernels);
     program.graphs.rows[g] = std::move(graph);
   }
+  for (const KernelSets& row : kernels) program.spectra[row.spectrum].kernels = row.sets;
   return program;
 }
 

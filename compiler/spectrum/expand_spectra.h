@@ -4,8 +4,8 @@
 //   shade.classify  : compute     one invocation a group of the grid: the first kernel whose set holds the group's mask, and the group into its list
 //   shade[0], ...   : compute     indirect; one workgroup a listed group, the features of its set as constants; between them nothing waits
 //
-// with a buffer `shade.arguments` (three u32 a kernel), a buffer `shade.tiles` (the lists, x | y << 16) and an image `shade.modes` of the grid, which
-// shows what each group got. The shader asks spectrum_tile() and spectrum_pixel() where it would have looked at gl_WorkGroupID and
+// with a buffer `shade.arguments` (three u32 a kernel), a buffer `shade.tiles` (the lists, x | y << 16) and an image of the grid, which shows what each
+// group got: that of `into`, else one of its own, `shade.modes`. The shader asks spectrum_tile() and spectrum_pixel() where it would have looked at gl_WorkGroupID and
 // gl_GlobalInvocationID.
 #pragma once
 

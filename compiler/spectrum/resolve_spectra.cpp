@@ -1,6 +1,8 @@
 #include "compiler/spectrum/resolve_spectra.h"
 
 #include <algorithm>
+#include <array>
+#include <set>
 
 #include "compiler/shaders/cache.h"
 #include "compiler/shaders/statistics.h"
@@ -23,23 +25,54 @@ std::vector<User> users_of(const dsl::Program& program, dsl::SpectrumId spectrum
   return users;
 }
 
-int64_t groups(const dsl::Program& program, const dsl::Dispatch& dispatch, const std::vector<int64_t>& extents) {
-  int64_t product = 1;
+using Grid = std::array<int64_t, 3>;
+Grid groups(const dsl::Program& program, const dsl::Dispatch& dispatch, const std::vector<int64_t>& extents) {
+  Grid grid = {1, 1, 1};
   for (size_t axis = 0; axis < 3; ++axis) {
-    const int64_t size = dispatch.size[axis].valid() ? dsl::evaluate(program, dispatch.size[axis], extents) : 1;
-    product *= dispatch.kind == dsl::DispatchKind::groups ? size : (size + dispatch.group[axis] - 1) / dispatch.group[axis];
+    if (dispatch.size[axis].valid()) grid[axis] = dsl::evaluate(program, dispatch.size[axis], extents);
+    if (dispatch.kind != dsl::DispatchKind::groups) grid[axis] = (grid[axis] + dispatch.group[axis] - 1) / dispatch.group[axis];
   }
-  return product;
+  return grid;
+}
+
+const dsl::Resource& resource_of(const dsl::Program& program, const User& user, uint32_t access) {
+  return program.graphs[user.graph].resources[user.pass->accesses[access].resource];
+}
+std::string text_of(const Grid& grid) { return std::to_string(grid[0]) + "x" + std::to_string(grid[1]) + (grid[2] == 1 ? "" : "x" + std::to_string(grid[2])); }
+
+// A kernel may have to shade all groups, and one dispatch runs them along one axis.
+bool check_group_limit(const User& user, const Grid& grid, dsl::Diagnostics& diagnostics) {
+  constexpr int64_t kMostGroups = 65535;  // what every device allows along an axis
+  if (grid[2] == 1 && grid[0] * grid[1] <= kMostGroups) return true;
+  diagnostics.report(DiagnosticKind::SpectrumGroups, user.pass->span, {user.pass->name, text_of(grid), std::to_string(kMostGroups)});
+  return false;
+}
+
+bool check_masks(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents, dsl::Diagnostics& diagnostics) {
+  const dsl::Resource& masks = resource_of(program, user, user.pass->masks);
+  const int64_t count = masks.count.valid() ? dsl::evaluate(program, masks.count, extents) : 0, wanted = grid[0] * grid[1] * grid[2];
+  if (!masks.count.valid() || count == wanted) return true;
+  diagnostics.report(DiagnosticKind::SpectrumGrid, user.pass->span, {masks.name, std::to_string(count), user.pass->name, std::to_string(wanted)});
+  return false;
+}
+
+bool check_kernel_image(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents, dsl::Diagnostics& diagnostics) {
+  if (user.pass->kernels == dsl::kAll) return true;
+  const dsl::Resource& image = resource_of(program, user, user.pass->kernels);
+  Grid texels = {1, 1, 1};
+  const dsl::ExprId sizes[] = {image.width, image.height, image.depth};
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (sizes[axis].valid()) texels[axis] = dsl::evaluate(program, sizes[axis], extents);
+  if (texels == grid) return true;
+  diagnostics.report(DiagnosticKind::KernelImageGrid, user.pass->span, {image.name, text_of(texels), user.pass->name, text_of(grid)});
+  return false;
 }
 
 bool check_grid(const dsl::Program& program, const User& user, dsl::Diagnostics& diagnostics) {
-  const dsl::Resource& masks = program.graphs[user.graph].resources[user.pass->accesses[user.pass->masks].resource];
   for (const auto& extents : {dsl::initial_extents(program), dsl::maximum_extents(program)}) {
-    const int64_t count = masks.count.valid() ? dsl::evaluate(program, masks.count, extents) : 0;
-    const int64_t grid = groups(program, user.pass->dispatch, extents);
-    if (!masks.count.valid() || count == grid) continue;
-    diagnostics.report(DiagnosticKind::SpectrumGrid, user.pass->span, {masks.name, std::to_string(count), user.pass->name, std::to_string(grid)});
-    return false;
+    const Grid grid = groups(program, user.pass->dispatch, extents);
+    if (!check_group_limit(user, grid, diagnostics)) return false;
+    if (!check_masks(program, user, grid, extents, diagnostics) || !check_kernel_image(program, user, grid, extents, diagnostics)) return false;
   }
   return true;
 }
@@ -71,14 +104,14 @@ std::optional<SpectrumProfile> find_profile(const dsl::Spectrum& spectrum, const
 // Sampled and stored texels cost as much as several arithmetic instructions: latency hidden by other waves, bandwidth not.
 double work_of(const ShaderStatistics& s) { return s.alu + 8.0 * s.samples + 4.0 * (s.loads + s.stores) + 8.0 * s.atomics; }
 
-std::vector<Mask> sampled_sets(uint32_t features) {
-  std::vector<Mask> sets = {0};
-  for (uint32_t a = 0; a < features; ++a) {
-    sets.push_back(Mask{1} << a);
-    for (uint32_t b = 0; b < a; ++b) sets.push_back(Mask{1} << a | Mask{1} << b);
-  }
-  const Mask full = static_cast<Mask>((uint64_t{1} << features) - 1);
-  if (std::find(sets.begin(), sets.end(), full) == sets.end()) sets.push_back(full);
+// Nothing, each feature, everything, and what most tiles ask for.
+std::set<Mask> sampled_sets(const SpectrumProblem& problem) {
+  constexpr size_t kMasks = 32;
+  std::set<Mask> sets = {0, static_cast<Mask>((uint64_t{1} << problem.features) - 1)};
+  for (uint32_t a = 0; a < problem.features; ++a) sets.insert(close(problem, Mask{1} << a));
+  std::vector<MaskWeight> masks = problem.histogram;
+  std::stable_sort(masks.begin(), masks.end(), [](const MaskWeight& a, const MaskWeight& b) { return a.weight > b.weight; });
+  for (size_t i = 0; i < std::min(kMasks, masks.size()); ++i) sets.insert(close(problem, masks[i].mask));
   return sets;
 }
 
@@ -110,31 +143,7 @@ std::vector<ShaderStatistics> measure_kernels(const dsl::Program& program, const
   return statistics;
 }
 
-CostModel model_of(const dsl::Program& program, const User& user, const std::optional<SpectrumProfile>& profile, const ReadFile& read,
-                   const dsl::SourceFiles& files, const SpectrumOptions& options) {
-  const auto features = static_cast<uint32_t>(program.spectra[user.pass->spectrum].members.size());
-  CostModel model;
-  model.work.features.assign(features, 0.1);
-  if (profile && !profile->costs.empty()) {
-    model.work = fit_least_squares(features, profile->costs);
-    model.measured = profile->costs;
-    return model;
-  }
-  const std::vector<Mask> sets = sampled_sets(features);
-  const std::vector<ShaderStatistics> statistics = measure_kernels(program, user, sets, read, files, options);
-  if (statistics.empty()) return model;
-  std::vector<std::pair<Mask, double>> work, registers;
-  for (size_t i = 0; i < sets.size(); ++i) {
-    work.emplace_back(sets[i], work_of(statistics[i]));
-    registers.emplace_back(sets[i], statistics[i].live_scalars);
-  }
-  model.work = fit_terms(features, work);
-  model.registers = fit_terms(features, registers);
-  return model;
-}
-
-SpectrumProblem make_problem(const dsl::Spectrum& spectrum, const std::optional<SpectrumProfile>& profile, CostModel costs,
-                             const SpectrumOptions& options) {
+SpectrumProblem make_problem(const dsl::Spectrum& spectrum, const std::optional<SpectrumProfile>& profile, const SpectrumOptions& options) {
   SpectrumProblem problem;
   problem.features = static_cast<uint32_t>(spectrum.members.size());
   for (const dsl::Spectrum::Member& member : spectrum.members) {
@@ -143,9 +152,39 @@ SpectrumProblem make_problem(const dsl::Spectrum& spectrum, const std::optional<
   }
   problem.histogram = profile ? profile->histogram : assumed_profile(spectrum).histogram;
   for (MaskWeight& row : problem.histogram) row.mask |= options.force;
-  problem.costs = std::move(costs);
   problem.modes = options.modes.value_or(spectrum.modes);
   return problem;
+}
+
+CostModel fitted(uint32_t features, std::vector<std::pair<Mask, double>> samples) {
+  std::sort(samples.begin(), samples.end());
+  CostModel model;
+  model.work = fit_least_squares(features, samples);
+  model.measured = std::move(samples);
+  return model;
+}
+
+// Costs from the statistics of real kernels: a sample first, then whatever was chosen, until nothing is chosen unseen.
+ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, SpectrumProblem& problem, const ReadFile& read,
+                                const dsl::SourceFiles& files, const SpectrumOptions& options) {
+  constexpr int kRounds = 6;
+  problem.costs.work.features.assign(problem.features, 0.1);
+  std::set<Mask> wanted = sampled_sets(problem), known;
+  std::vector<std::pair<Mask, double>> samples;
+  ModeChoice choice;
+  for (int round = 0; round < kRounds && !wanted.empty(); ++round) {
+    const std::vector<Mask> sets(wanted.begin(), wanted.end());
+    const std::vector<ShaderStatistics> statistics = measure_kernels(program, user, sets, read, files, options);
+    for (size_t i = 0; i < statistics.size(); ++i)
+      samples.emplace_back(sets[i], work_of(statistics[i]) * register_factor(statistics[i].live_scalars));
+    if (!statistics.empty()) problem.costs = fitted(problem.features, samples);
+    choice = choose_modes(problem);
+    known.insert(wanted.begin(), wanted.end());
+    wanted.clear();
+    for (const Mask set : choice.modes)
+      if (!known.contains(set)) wanted.insert(set);
+  }
+  return choice;
 }
 
 }  // namespace
@@ -161,9 +200,10 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
     const dsl::Spectrum& spectrum = program.spectra.rows[s];
     auto profile = find_profile(spectrum, read, read_override, options, diagnostics);
     if (!good || diagnostics.has_errors()) continue;
-    CostModel model = model_of(program, users[0], profile, read, files, options);
-    SpectrumProblem problem = make_problem(spectrum, profile, std::move(model), options);
-    ModeChoice choice = choose_modes(problem);
+    SpectrumProblem problem = make_problem(spectrum, profile, options);
+    const bool timed = profile && !profile->costs.empty();
+    if (timed) problem.costs = fitted(problem.features, profile->costs);
+    ModeChoice choice = timed ? choose_modes(problem) : choose_by_statistics(program, users[0], problem, read, files, options);
     choices.push_back({dsl::SpectrumId{s}, users[0].pass->name, std::move(profile), std::move(problem), std::move(choice)});
   }
   return choices;

@@ -74,6 +74,7 @@ FrameSettings settings_for(const DemoOptions& options, const Shot& shot, uint32_
   settings.height = options.height;
   settings.number = number;
   settings.debug_view = shot.view;
+  settings.forced_features = options.forced_features;
   return settings;
 }
 
@@ -108,10 +109,11 @@ Status measure_passes(Device& device, const Scene& scene, const DemoOptions& opt
 }
 
 // The last frame's tiles count for the camera's scene.
-Status record_tiles(Renderer& renderer, const Shot& shot, std::vector<SpectrumScene>& scenes) {
+Status record_tiles(Renderer& renderer, const DemoOptions& options, const Shot& shot, std::vector<SpectrumScene>& scenes) {
   const auto features = renderer.graph().tile_features();
   if (!features) return features.error();
-  count_tiles(scenes.emplace_back(SpectrumScene{shot.camera->name, {}}), *features);
+  const auto weight = options.weights.find(shot.camera->name);
+  count_tiles(scenes.emplace_back(SpectrumScene{shot.camera->name, weight == options.weights.end() ? 1 : weight->second, {}}), *features);
   return Done{};
 }
 
@@ -168,7 +170,7 @@ Status render_all(Device& device, const Scene& scene, const DemoOptions& options
   for (const Shot& shot : *shots) {
     if (Status taken = take(*renderer, scene, options, shot); !taken) return taken;
     if (options.record_spectrum.empty() || shot.view != frame::DEBUG_FINAL) continue;
-    if (Status recorded = record_tiles(*renderer, shot, tiles); !recorded) return recorded;
+    if (Status recorded = record_tiles(*renderer, options, shot, tiles); !recorded) return recorded;
   }
   if (!options.record_spectrum.empty())
     if (Status written = write_spectrum(options.record_spectrum, tiles); !written) return written;

@@ -125,7 +125,7 @@ frame::Fog make_fog(const Scene& scene, const NamedCamera& camera, const FrameSe
 }
 
 constexpr std::string_view kViews[] = {"final",    "lights",   "albedo", "normal",    "depth",    "roughness", "metallic", "diffuse", "specular",
-                                       "emissive", "overflow", "zbin",   "occlusion", "velocity", "forward",   "fog",      "through", "features"};
+                                       "emissive", "overflow", "zbin",   "occlusion", "velocity", "forward",   "fog",      "through", "features", "kernels"};
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace

@@ -3,13 +3,15 @@
 #include <CLI/CLI.hpp>
 
 #include "examples/demo/frame_data.h"
+#include "examples/demo/spectrum.h"
 
 namespace rg::demo {
 
 std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) {
   DemoOptions options;
   CLI::App app{"Renders a scene through the generated frame and writes pictures."};
-  std::vector<std::string> views;
+  std::vector<std::string> views, forced, features = {"all"};
+  for (const std::string_view name : frame::spectrum::light_features::features) features.emplace_back(name);
   for (const std::string_view name : view_names()) views.emplace_back(name);
   app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 3840))->capture_default_str();
   app.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 2160))->capture_default_str();
@@ -21,6 +23,9 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
   app.add_option("--record-spectrum", options.record_spectrum,
                  "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
+  app.add_option("--weight", options.weights, "how much a camera counts in that file; may be repeated")->type_name("CAMERA NUMBER");
+  app.add_option("--force-feature", forced, "shade every tile with a feature of lamps, whether it has such lamps or not; may be repeated; `all`")
+      ->check(CLI::IsMember(features));
   app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
   app.add_option("--dump", options.dumps, "what PASS leaves in a resource, as PNG and EXR in --out; may be repeated")->type_name("PASS.RESOURCE");
   app.add_option("--trace", options.trace, "passes on a time line, for chrome://tracing or Perfetto")->type_name("FILE");
@@ -33,6 +38,7 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_flag("--list-devices", options.list_devices, "print the Vulkan devices and end");
   try {
     app.parse(argc, argv);
+    for (const std::string& name : forced) options.forced_features |= feature_bit(name).value_or((1u << frame::LAMP_FEATURES) - 1);
     return options;
   } catch (const CLI::ParseError& error) {
     exit_code = app.exit(error) == 0 ? 0 : 2;

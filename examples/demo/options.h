@@ -1,6 +1,7 @@
 // What the command line of the demo says.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,8 @@ struct DemoOptions {
   uint32_t threads = 1;
   bool serial = false, poison = false;
   std::string record_spectrum;     // a file for the feature masks of the tiles; empty: none
+  std::map<std::string, double> weights;  // of cameras in that file; 1 where there is none
+  uint32_t forced_features = 0;           // bits that every tile is shaded with
   int device = -1;
   bool validate = false, list_devices = false;
 };

@@ -8,20 +8,17 @@
 namespace rg::demo {
 namespace {
 
-// In the order of the bits, as passes/lighting/lighting.rg declares them.
-constexpr const char* kFeatures[] = {"round_spots", "square_spots", "shadows",  "soft_shadows", "pictures",
-                                     "areas",       "tubes",        "darkness", "clip_planes"};
-static_assert(std::size(kFeatures) == frame::LAMP_FEATURES);
+using Features = frame::spectrum::light_features;
 
 nlohmann::ordered_json names_of(uint32_t mask) {
   nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (size_t i = 0; i < std::size(kFeatures); ++i)
-    if ((mask >> i & 1) != 0) names.push_back(kFeatures[i]);
+  for (size_t i = 0; i < std::size(Features::features); ++i)
+    if ((mask >> i & 1) != 0) names.push_back(Features::features[i]);
   return names;
 }
 
 nlohmann::ordered_json to_json(const SpectrumScene& scene) {
-  nlohmann::ordered_json out{{"name", scene.name}, {"weight", 1}, {"masks", nlohmann::ordered_json::array()}};
+  nlohmann::ordered_json out{{"name", scene.name}, {"weight", scene.weight}, {"masks", nlohmann::ordered_json::array()}};
   for (const auto& [mask, tiles] : scene.tiles) out["masks"].push_back({{"features", names_of(mask)}, {"tiles", tiles}});
   return out;
 }
@@ -32,13 +29,19 @@ Error io_error(const std::filesystem::path& path) {
 
 }  // namespace
 
+std::optional<uint32_t> feature_bit(std::string_view name) {
+  for (size_t i = 0; i < std::size(Features::features); ++i)
+    if (Features::features[i] == name) return uint32_t{1} << i;
+  return std::nullopt;
+}
+
 void count_tiles(SpectrumScene& scene, std::span<const uint32_t> tile_features) {
   for (const uint32_t mask : tile_features) ++scene.tiles[mask];
 }
 
 Status write_spectrum(const std::filesystem::path& path, const std::vector<SpectrumScene>& scenes) {
   nlohmann::ordered_json out{
-      {"schema", "rgc-spectrum-1"}, {"spectrum", "lamp_features"}, {"features", names_of(~0u)}, {"scenes", nlohmann::ordered_json::array()}};
+      {"schema", "rgc-spectrum-1"}, {"spectrum", "light_features"}, {"features", names_of(~0u)}, {"scenes", nlohmann::ordered_json::array()}};
   for (const SpectrumScene& scene : scenes) out["scenes"].push_back(to_json(scene));
   const std::filesystem::path temporary = path.string() + ".tmp";
   std::ofstream file(temporary);

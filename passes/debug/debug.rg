@@ -19,4 +19,5 @@ const DEBUG_FORWARD = 14   // lights a tile offers to transparent surfaces
 const DEBUG_FOG = 15       // light of the fog in front
 const DEBUG_THROUGH = 16   // share of the light that comes through it
 const DEBUG_FEATURES = 17  // how many features the lamps of a tile have between them
-const DEBUG_COUNT = 18
+const DEBUG_KERNELS = 18   // which kernel of the spectrum shades the tile
+const DEBUG_COUNT = 19

@@ -37,6 +37,15 @@ vec3 zbin_view(float d) {
 
 vec3 lit_view(vec3 light) { return pow(light / (light + 0.6), vec3(1.0 / 2.2)); }
 
+// A colour a kernel, hues a golden angle apart, over the picture.
+vec3 kernel_view(ivec2 pixel) {
+  uint kernel = imageLoad(tile_kernels, pixel / SHADE_TILE).r;
+  vec3 hue = clamp(abs(fract(float(kernel) * 0.618034 + vec3(0.6, 0.93, 0.27)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+  float lit = dot(lit_view(texelFetch(hdr, pixel, 0).rgb), vec3(0.2, 0.7, 0.1));
+  bool rim = any(equal(pixel % SHADE_TILE, ivec2(0)));
+  return hue * (rim ? 0.3 : 0.4) + 0.6 * lit;
+}
+
 vec3 channel(ivec2 pixel) {
   float d = texelFetch(depth, pixel, 0).r;
   switch (camera.debug_view) {
@@ -57,6 +66,7 @@ vec3 channel(ivec2 pixel) {
     case DEBUG_FOG: return lit_view(fog_light((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
     case DEBUG_THROUGH: return vec3(fog_transmittance((vec2(pixel) + 0.5) * camera.inverse_size, view_depth(d)));
     case DEBUG_FEATURES: return heat(float(bitCount(tile_features[record_of(uvec2(pixel))])) / float(LAMP_FEATURES));
+    case DEBUG_KERNELS: return kernel_view(pixel);
     default: return vec3(0.0);
   }
 }

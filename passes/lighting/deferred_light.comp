@@ -1,4 +1,5 @@
 // Tiled deferred shading: sun, sky, and the lamps of the tile's record; the other light paths exist to be compared with it.
+#include "features.glsl"
 #include "passes/view/octahedral.glsl"
 #include "passes/view/view.glsl"
 #include "passes/culling/zbin.glsl"
@@ -38,13 +39,14 @@ uint next_special(inout LampSource source) {
   return index;
 }
 
-// First the plain lamps, then the others: code for features that no lamp of a loop has costs nothing.
+// First the plain lamps, then the others: code for features that no lamp of a loop has costs nothing. A kernel has the code of its features only.
 void shade_lamps(inout Light2 sum, Surface s, uvec2 pixel, float depth) {
   LampSource start = lamp_source(pixel, depth), source = start;
   for (uint i = next_lamp(source); i != NO_LAMP; i = next_lamp(source))
-    if (is_plain(i)) add_lamp(sum, s, lights[i], PLAIN_FEATURES);
+    if (is_plain(i)) add_lamp(sum, s, lights[i], KERNEL & PLAIN_FEATURES);
+  if ((KERNEL & ~PLAIN_FEATURES) == 0u) return;
   source = start;
-  for (uint i = next_special(source); i != NO_LAMP; i = next_special(source)) add_lamp(sum, s, lights[i], ALL_FEATURES);
+  for (uint i = next_special(source); i != NO_LAMP; i = next_special(source)) add_lamp(sum, s, lights[i], KERNEL);
 }
 
 float smooth_occlusion(vec2 uv) {
@@ -61,11 +63,12 @@ void add_sky(inout Light2 sum, Surface s, float roughness, float sky) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 pixel = ivec2(spectrum_pixel());
   if (any(greaterThanEqual(pixel, ivec2(camera.size)))) return;
   vec2 at = vec2(pixel) + 0.5;
   float d = texelFetch(depth, pixel, 0).r;
-  bool shown = camera.debug_view == DEBUG_FINAL, lit = shown || camera.debug_view == DEBUG_DIFFUSE || camera.debug_view == DEBUG_SPECULAR;
+  bool shown = camera.debug_view == DEBUG_FINAL || camera.debug_view == DEBUG_KERNELS;
+  bool lit = shown || camera.debug_view == DEBUG_DIFFUSE || camera.debug_view == DEBUG_SPECULAR;
   if (d <= 0.0 || !lit) {
     vec3 sky = through_fog(sky_radiance(normalize(world_ray(at)), true), at * camera.inverse_size, FAR);
     imageStore(hdr, pixel, vec4(shown ? sky : vec3(0.0), 1.0));

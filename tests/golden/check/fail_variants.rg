@@ -20,4 +20,6 @@ graph g(surface s: rgba8 view) {
 //~^ error[RG0203]: there is no feature called `mist`
 //~^^ note[RG0202]: `fog` is declared here
   pass p7 : compute { shader "x.comp" group 8 8 1  spectrum others by masks  write s as storage disjoint  dispatch over view }  //~ error[RG0203]: there is no spectrum called `others`
+  pass p8 : compute { shader "x.comp" group 8 8 1  spectrum kinds by masks into pairs  write s as storage disjoint  dispatch over view }  //~ error[RG0719]: `pairs` cannot show the kernels of spectrum `kinds`: that takes an image of r32ui, one texel a group
 }
+feature warp : device subgroups  //~ error[RG0203]: there is no capability of devices called `subgroups`

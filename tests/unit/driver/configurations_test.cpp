@@ -10,8 +10,8 @@ using dsl::DiagnosticKind;
 // fog: off on; quality: low mid high. The graph uses both unless told otherwise.
 dsl::Program two_features(bool use_quality = true) {
   dsl::Program program;
-  program.features.add({"fog", {"off", "on"}, 1, {}});
-  program.features.add({"quality", {"low", "mid", "high"}, 2, {}});
+  program.features.add({"fog", {"off", "on"}, 1, {}, {}});
+  program.features.add({"quality", {"low", "mid", "high"}, 2, {}, {}});
   dsl::Graph graph;
   graph.name = "frame";
   dsl::Pass fog, detail;
@@ -91,7 +91,7 @@ TEST(Configurations, SearchAgreesWithTryingAll) {
   size_t forbidden = 0;
   for (uint32_t seed = 0; seed < 400; ++seed) {
     dsl::Program program = two_features();
-    program.features.add({"rain", {"off", "on"}, 0, {}});
+    program.features.add({"rain", {"off", "on"}, 0, {}, {}});
     dsl::Pass wet;
     wet.guard.terms.push_back({dsl::FeatureId{2}, 1, false});
     program.graphs[dsl::GraphId{0}].passes.add(wet);

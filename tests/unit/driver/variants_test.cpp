@@ -68,17 +68,20 @@ std::string all_text(const CompileResult& result) {
   return text;
 }
 
-TEST(VariantsOfAFrame, PlanFeaturesMakePlansAndShaderFeaturesChoices) {
+TEST(VariantsOfAFrame, FeaturesMakeChoicesAndConditionsOfOnePlan) {
   const Compiled compiled = compile_files(frame_with("features sun, path, fog", kBody));
   ASSERT_FALSE(compiled.diagnostics.has_errors()) << compiled.codes();
   const CompiledGraph& graph = compiled.result.graphs[0];
-  ASSERT_EQ(graph.plans.size(), 2u);
-  for (const FramePlan& frame : graph.plans) {
-    ASSERT_EQ(frame.plan.features.size(), 2u);
-    EXPECT_EQ(frame.plan.features[0].name, "sun");
-    EXPECT_EQ(frame.plan.features[1].name, "path");
-    EXPECT_EQ(frame.plan.pipeline_choices.size(), 4u);
-  }
+  ASSERT_EQ(graph.plans.size(), 1u);
+  const PlanData& plan = graph.plans[0].plan;
+  ASSERT_EQ(plan.features.size(), 3u);
+  EXPECT_EQ(plan.features[0].name, "sun");
+  EXPECT_EQ(plan.features[1].name, "path");
+  EXPECT_EQ(plan.features[2].name, "fog");
+  EXPECT_EQ(plan.pipeline_choices.size(), 8u);
+  ASSERT_EQ(plan.feature_conditions.size(), 1u);
+  EXPECT_EQ(plan.feature_conditions[0].feature, 2u);
+  EXPECT_EQ(plan.feature_conditions[0].values, 2u) << "haze runs where fog is on";
   ASSERT_EQ(graph.shaders.counts.size(), 1u);
   EXPECT_EQ(graph.shaders.counts[0], (VariantCount{"light", "light.comp", 8, 0, 0, 0, 0, 8, 1}));
 }
@@ -90,6 +93,44 @@ TEST(VariantsOfAFrame, FixedFeaturesLeaveFewer) {
   ASSERT_FALSE(compiled.diagnostics.has_errors()) << compiled.codes();
   EXPECT_EQ(compiled.result.graphs[0].plans.size(), 1u);
   EXPECT_EQ(compiled.result.graphs[0].shaders.counts[0], (VariantCount{"light", "light.comp", 8, 6, 0, 0, 0, 2, 1}));
+}
+
+TEST(VariantsOfAFrame, WhatNoFrameRunsIsNotBuilt) {
+  Files files = frame_with("features sun", "  if (sun) c.r = 1.0;\n");
+  std::string& root = files["frame.rg"];
+  root.insert(root.find("\n      update lit as storage"), "\n      features fog, sun");
+  root.replace(root.find("feature sun: bool"), 17, "feature sun: bool requires fog");
+  files["haze.comp"] = "void main() {\n  ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n  vec4 c = imageLoad(lit, p);\n  if (fog) c *= 0.5;\n"
+                       "  if (sun) c.r = 0.1;\n  imageStore(lit, p, c);\n}\n";
+  const Compiled compiled = compile_files(files);
+  ASSERT_FALSE(compiled.diagnostics.has_errors()) << compiled.codes();
+  const CompiledGraph& graph = compiled.result.graphs[0];
+  ASSERT_EQ(graph.plans.size(), 1u);
+  // The pass is skipped without fog: of its four combinations two are left, and every choice has its row.
+  EXPECT_EQ(graph.shaders.counts[1], (VariantCount{"haze", "haze.comp", 4, 0, 2, 0, 0, 2, 1}));
+  const PlanData& plan = graph.plans[0].plan;
+  for (const Pass& pass : plan.passes) {
+    if (pass.name != "haze") continue;
+    ASSERT_EQ(pass.choice_count, 4u);
+    size_t excluded = 0;
+    for (Index i = 0; i < 4; ++i) excluded += plan.pipeline_choices[pass.first_choice + i] == kNone;
+    EXPECT_EQ(excluded, 2u);
+  }
+}
+
+TEST(VariantsOfAFrame, WhatOnlySomeDevicesHaveIsAskedFor) {
+  Files files = frame_with("features sun", "  if (sun) c.r = 1.0;\n  c.g = float(subgroupAdd(1u));\n");
+  files["light.comp"] = "#extension GL_KHR_shader_subgroup_arithmetic : require\n" + files["light.comp"];
+  const std::string refused = compile_files(files).codes();
+  EXPECT_EQ(refused.substr(0, refused.find(';')), "RG0510 shader `light.comp` needs `subgroup_arithmetic`, which profile `vulkan 1.3` does not promise");
+  files = frame_with("features sun, sums", "  if (sun) c.r = 1.0;\n#if FEATURE_sums\n  c.g = float(subgroupAdd(1u));\n#endif\n");
+  files["frame.rg"].insert(files["frame.rg"].find("feature fog"), "feature sums: device subgroup_arithmetic\n");
+  files["light.comp"] = "#if FEATURE_sums\n#extension GL_KHR_shader_subgroup_arithmetic : require\n#endif\n" + files["light.comp"];
+  const Compiled asked = compile_files(files);
+  ASSERT_FALSE(asked.diagnostics.has_errors()) << asked.codes();
+  const PlanData& plan = asked.result.graphs[0].plans[0].plan;
+  EXPECT_EQ(plan.features[1].capability, Capability::subgroup_arithmetic);
+  EXPECT_EQ(plan.pipeline_choices.size(), 4u);
 }
 
 TEST(VariantsOfAFrame, WhatIsCulledIsNotBuilt) {
@@ -108,6 +149,7 @@ TEST(VariantsOfAFrame, TooManyAreRefusedByName) {
   for (int i = 0; i < 7; ++i) {
     features += "feature f" + std::to_string(i) + ": bool\n";
     passes += "  when f" + std::to_string(i) + " { pass p" + std::to_string(i) + " : compute { update lit as storage } }\n";
+    passes += "  else { pass q" + std::to_string(i) + " : compute { update lit as storage } }\n";
   }
   for (int i = 0; i < 13; ++i) features += "feature g" + std::to_string(i) + ": bool\n", list += (i ? ", g" : "g") + std::to_string(i);
   Files files = frame_with("features sun", "  if (sun) c.r = 1.0;\n");
@@ -115,8 +157,8 @@ TEST(VariantsOfAFrame, TooManyAreRefusedByName) {
   root.insert(root.find("graph frame"), features);
   Files many = files;
   many["frame.rg"].insert(many["frame.rg"].find("  when fog"), passes);
-  EXPECT_NE(compile_files(many).codes().find("RG0505 graph `frame` has 256 feature configurations; the limit is 64\n"
-                                             "  feature `fog` multiplies them by up to 2\n"),
+  EXPECT_NE(compile_files(many).codes().find("RG0505 graph `frame` has 128 feature configurations; the limit is 64\n"
+                                             "  feature `f0` multiplies them by up to 2\n"),
             std::string::npos)
       << compile_files(many).codes();
   EXPECT_EQ(compile_files(many).diagnostics.rows()[0].notes.at(0).kind, dsl::DiagnosticKind::FeatureMultiplies);
@@ -217,7 +259,7 @@ TEST(Shards, EveryVariantIsATask) {
   std::string text;
   for (const ShaderTask& task : listed.result.tasks) text += task.pass + " " + task.shader + " " + task.features + "\n";
   EXPECT_EQ(text,
-            "light light.comp sun=off, fog=off\nlight light.comp sun=on, fog=off\nlight light.comp sun=off, fog=on\nlight light.comp sun=on, fog=on\n"
+            "light light.comp sun=off, fog=off\nlight light.comp sun=off, fog=on\nlight light.comp sun=on, fog=off\nlight light.comp sun=on, fog=on\n"
             "haze haze.comp \nshow rgc/fullscreen.vert \nshow show.frag \n");
 }
 
@@ -269,6 +311,43 @@ TEST(SpectrumOfAFrame, BadProfilesAreRefused) {
   EXPECT_EQ(codes("{\"schema\": \"rgc-spectrum-1\", \"scenes\": []}"), "RG0714 profile `p.json` counts no tiles");
   EXPECT_EQ(compile_files(tiles_with("profile \"gone.json\"", "ceil(view / 8).area", "")).diagnostics.rows()[0].kind,
             dsl::DiagnosticKind::SpectrumProfileNotReadable);
+}
+
+// `image kernels` of that size, and `into kernels`.
+Files tiles_into(const std::string& size, const std::string& group = "8 8 1", const std::string& extent = "64, 64") {
+  Files files = tiles_with("profile \"p.json\"", group == "8 8 1" ? "ceil(view / 8).area" : "view.area", kGoodProfile);
+  std::string& root = files["frame.rg"];
+  root.replace(root.find("by masks"), 8, "by masks into kernels");
+  root.insert(root.find("  buffer shown"), "  image kernels : r32ui " + size + "\n");
+  root.replace(root.find("group 8 8 1"), 11, "group " + group);
+  root.replace(root.find("max(64, 64)"), 11, "max(" + extent + ")");
+  return files;
+}
+
+TEST(SpectrumOfAFrame, TheImageOfKernelsMatchesTheGrid) {
+  const Compiled good = compile_files(tiles_into("ceil(view / 8)"));
+  EXPECT_FALSE(good.diagnostics.has_errors()) << good.codes();
+  EXPECT_EQ(compile_files(tiles_into("ceil(view / 16)")).codes(),
+            "RG0720 `kernels` has 4x4 texels and pass `shade` runs 8x8 groups; it takes one texel a group\n");
+}
+
+TEST(SpectrumOfAFrame, OneRowOfGroupsHasALimit) {
+  EXPECT_EQ(compile_files(tiles_into("view", "1 1 1", "512, 256")).codes(),
+            "RG0721 pass `shade` runs 512x256 groups at the greatest extents; each kernel of a spectrum takes at most 65535, in two dimensions\n");
+}
+
+// The masks keep their place when a `read` and a `write` before them become one `update`.
+TEST(SpectrumOfAFrame, MasksAreFoundBehindMergedAccesses) {
+  Files files = tiles_with("profile \"p.json\"", "ceil(view / 8).area", kGoodProfile);
+  std::string& root = files["frame.rg"];
+  root.replace(root.find("update shown as storage disjoint"), 32, "");
+  root.insert(root.find("spectrum kinds by"), "read shown as storage\n    write shown as storage disjoint\n    ");
+  const Compiled compiled = compile_files(files);
+  ASSERT_FALSE(compiled.diagnostics.has_errors()) << compiled.codes();
+  for (const dsl::Pass& pass : compiled.result.program.graphs.rows[0].passes) {
+    if (pass.name != "shade.classify") continue;
+    EXPECT_EQ(compiled.result.program.graphs.rows[0].resources[pass.accesses[0].resource].name, "masks");
+  }
 }
 
 TEST(SpectrumOfAFrame, MasksMatchTheGrid) {

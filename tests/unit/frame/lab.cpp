@@ -188,6 +188,14 @@ Texels Lab::image(const FrameData& data, Index pass, Index resource, uint32_t mi
   return {static_cast<int>(bytes.width), static_cast<int>(bytes.height), decode_texels(bytes)};
 }
 
+Index deferred_light() {
+  const Plan plan = frame::plan();
+  Index last = kNone;
+  for (const Step& step : plan.steps)
+    if (step.kind == StepKind::pass && plan.passes[step.index].name.starts_with("deferred_light[")) last = step.index;
+  return last;
+}
+
 Lab& plaza_lab() {
   static Lab lab(plaza());
   return lab;

@@ -67,6 +67,9 @@ struct Record {
   uint32_t count = 0, overflow = 0, light[64] = {};
 };
 
+// The last kernel of spectrum light_features in the frame: behind it, all of `hdr` is shaded.
+Index deferred_light();
+
 // Index of the tile of `size` pixels that holds (x, y).
 inline size_t tile_of(int x, int y, int size, uint32_t width = kWidth) {
   return static_cast<size_t>(y / size) * ((width + static_cast<uint32_t>(size) - 1) / static_cast<uint32_t>(size)) + static_cast<size_t>(x / size);

@@ -78,7 +78,7 @@ FrameData prepare(const std::vector<demo::Light>& lights) {
   data.view.light_count = static_cast<uint32_t>(data.lights.size());
   return data;
 }
-Texels shade(const std::vector<demo::Light>& lights) { return stage_lab().image(prepare(lights), pass::deferred_light, resource::hdr); }
+Texels shade(const std::vector<demo::Light>& lights) { return stage_lab().image(prepare(lights), deferred_light(), resource::hdr); }
 
 struct Compared {
   uint32_t lit = 0, dark = 0;
@@ -89,7 +89,7 @@ Compared compare(const std::vector<demo::Light>& lights, double relative = 2e-3,
   const FrameData data = prepare(lights);
   const GBuffer g = read_gbuffer(lab, data);
   const reference::LampTextures lookups = make_lookups(lab, data, stage());
-  const Texels hdr = lab.image(data, pass::deferred_light, resource::hdr);
+  const Texels hdr = lab.image(data, deferred_light(), resource::hdr);
   Compared count;
   for (int y = 0; y < hdr.height; ++y)
     for (int x = 0; x < hdr.width; ++x) {

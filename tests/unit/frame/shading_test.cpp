@@ -19,7 +19,7 @@ TEST(DeferredLight, IsTheSumOverAllLamps) {
     const GBuffer g = read_gbuffer(lab, data);
     const reference::LampTextures lookups = make_lookups(lab, data, plaza());
     const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
-    const Texels hdr = lab.image(data, pass::deferred_light, resource::hdr);
+    const Texels hdr = lab.image(data, deferred_light(), resource::hdr);
     uint32_t compared = 0;
     for (int y = 1; y < hdr.height; y += 5)
       for (int x = 2; x < hdr.width; x += 7) {
@@ -61,9 +61,9 @@ TEST(LightPaths, RecordsGiveTheSameImageWhereNoneOverflows) {
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     FrameData data = lab.prepare(camera);
     const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
-    const Texels by_record = lab.image(data, pass::deferred_light, resource::hdr);
+    const Texels by_record = lab.image(data, deferred_light(), resource::hdr);
     data.view.light_path = static_cast<uint32_t>(frame::LIGHT_PATH_ALL);
-    const Texels by_all = lab.image(data, pass::deferred_light, resource::hdr);
+    const Texels by_all = lab.image(data, deferred_light(), resource::hdr);
     uint32_t different = 0;
     for (int y = 0; y < by_all.height; ++y)
       for (int x = 0; x < by_all.width; ++x)
@@ -102,11 +102,11 @@ TEST(DeferredLight, SunGoesThroughTheShadowMap) {
   const GBuffer g = read_gbuffer(lab, data);
   const Texels shadow = lab.image(data, pass::sun_shadow_props, resource::sun_shadow);
   ASSERT_EQ(shadow.width, frame::SUN_SHADOW_SIZE);
-  const Texels hdr = lab.image(data, pass::deferred_light, resource::hdr);
+  const Texels hdr = lab.image(data, deferred_light(), resource::hdr);
   FrameData night = data;  // everything lies in shadow: what is left is the glow that the sun gives the sky
   for (auto& column : night.view.world_to_sun.column) column.z = 0;
   night.view.world_to_sun.column[3].z = -10;
-  const Texels glow = lab.image(night, pass::deferred_light, resource::hdr);
+  const Texels glow = lab.image(night, deferred_light(), resource::hdr);
   uint32_t lit = 0, dark = 0;
   for (int y = 0; y < hdr.height; y += 3)
     for (int x = 0; x < hdr.width; x += 3) {

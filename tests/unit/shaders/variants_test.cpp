@@ -13,7 +13,7 @@ using dsl::Role;
 
 struct Variants : testing::Test, Fixture {
   dsl::FeatureId feature(const std::string& name, std::vector<std::string> values = {"off", "on"}) {
-    return program.features.add({name, std::move(values), 0, {}});
+    return program.features.add({name, std::move(values), 0, {}, {}});
   }
   dsl::Pass& pass_with(const std::vector<dsl::FeatureId>& features, const std::string& text) {
     const auto hdr = image("hdr", Format::rgba16f);
