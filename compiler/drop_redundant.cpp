@@ -14,7 +14,12 @@ namespace {
 class Dropper {
  public:
   Dropper(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, SyncPlan& sync)
-      : frame_(frame), schedule_(schedule), sync_(sync), order_(frame, schedule, sync), signals_on_(schedule.queues.size()), watched_by_(order_.scopes.size()) {
+      : frame_(frame),
+        schedule_(schedule),
+        sync_(sync),
+        order_(frame, schedule, sync),
+        signals_on_(schedule.queues.size()),
+        watched_by_(order_.scopes.size()) {
     Obligations found = find_obligations(frame, schedule, lines, sync, order_);
     facts_ = std::move(found.facts), without_ = std::move(found.without), last_uses_ = std::move(found.last_uses);
     rests_on_.resize(facts_.size());
@@ -96,12 +101,14 @@ class Dropper {
   bool is_about(uint32_t fact, const SyncScope& scope, uint32_t s) const {
     if (!scope.gone || !scope.changes) return false;
     const SyncSource& source = order_.sources[facts_[fact].source];
-    return (source.kind == SyncSource::Kind::transition && source.scope == s) || (facts_[fact].kind == SyncFact::Kind::feeds && facts_[fact].scope == s);
+    return (source.kind == SyncSource::Kind::transition && source.scope == s) ||
+           (facts_[fact].kind == SyncFact::Kind::feeds && facts_[fact].scope == s);
   }
   void drop_discard(uint32_t s) {
     const auto found = without_.find(s);
     if (found == without_.end()) return;
-    attempt(s, {s, AtomField::whole, 0}, [](SyncScope& scope) { scope.gone = true; }, found->second);
+    attempt(
+        s, {s, AtomField::whole, 0}, [](SyncScope& scope) { scope.gone = true; }, found->second);
   }
 
   void drop(uint32_t s, const SyncAtom& atom) {
@@ -110,7 +117,8 @@ class Dropper {
 
   bool wait_earlier(uint32_t s) {
     const SyncScope& wait = order_.scopes[s];
-    if (wait.kind != SyncKind::wait || wait.gone || wait.number < 0) return false;  // the frame before: all of it, so that other plans may come before
+    if (wait.kind != SyncKind::wait || wait.gone || wait.number < 0)
+      return false;  // the frame before: all of it, so that other plans may come before
     int64_t earlier = -1;
     const std::vector<uint32_t>& signals = signals_on_[wait.from_queue];
     auto at = std::partition_point(signals.begin(), signals.end(), [&](uint32_t signal) { return order_.scopes[signal].number < wait.number; });
@@ -190,9 +198,8 @@ class Dropper {
         }
   }
   bool wait_for_all(const std::vector<Release>& rows, const std::vector<uint32_t>& uses) {
-    return std::all_of(uses.begin(), uses.end(), [&](uint32_t use) {
-      return std::any_of(rows.begin(), rows.end(), [&](const Release& row) { return waits_for(row, use); });
-    });
+    return std::all_of(uses.begin(), uses.end(),
+                       [&](uint32_t use) { return std::any_of(rows.begin(), rows.end(), [&](const Release& row) { return waits_for(row, use); }); });
   }
   bool waits_for(const Release& row, uint32_t use) {
     const SyncSource& source = order_.sources[use];
@@ -200,7 +207,8 @@ class Dropper {
     if (row.queue == source.queue && named) return true;
     const uint32_t point = order_.point_of_slot(last_slot_.at({row.resource, row.queue}) + 1);
     std::vector<SyncAtom> atoms;
-    return point >= source.after && order_.derive({SyncFact::Kind::follows, use, point, row.queue, with_earlier(row.stages), 0, 0, UINT32_MAX}, atoms);
+    return point >= source.after &&
+           order_.derive({SyncFact::Kind::follows, use, point, row.queue, with_earlier(row.stages), 0, 0, UINT32_MAX}, atoms);
   }
 
   const Frame& frame_;
@@ -211,9 +219,9 @@ class Dropper {
   std::map<uint32_t, std::vector<SyncFact>> without_;
   std::vector<uint32_t> last_uses_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> last_slot_;  // of transients, by resource and queue
-  std::vector<std::vector<uint32_t>> signals_on_;  // by queue: scopes
-  std::vector<std::vector<SyncAtom>> rests_on_;  // by fact
-  std::vector<std::vector<Watch>> watched_by_;   // by scope
+  std::vector<std::vector<uint32_t>> signals_on_;                // by queue: scopes
+  std::vector<std::vector<SyncAtom>> rests_on_;                  // by fact
+  std::vector<std::vector<Watch>> watched_by_;                   // by scope
 };
 
 }  // namespace

@@ -34,7 +34,13 @@ bool contains(const Frame& frame, const CellBarrier& barrier, const Cell& cell) 
 void SyncScope::complete() { src_earlier = everything ? ~Stages{0} : with_earlier(src), dst_later = with_later(dst); }
 
 HappensBefore::HappensBefore(const Frame& frame, const Schedule& schedule, const SyncPlan& sync)
-    : point_of_slot_(schedule.slots()), on_cell_(frame.cells.size()), next_cell_(frame.cells.size()), waits_on_(schedule.queues.size()), last_signal_(schedule.queues.size(), -1), lanes_(schedule.queues.size()), batches_(schedule.batches) {
+    : point_of_slot_(schedule.slots()),
+      on_cell_(frame.cells.size()),
+      next_cell_(frame.cells.size()),
+      waits_on_(schedule.queues.size()),
+      last_signal_(schedule.queues.size(), -1),
+      lanes_(schedule.queues.size()),
+      batches_(schedule.batches) {
   std::vector<uint32_t> last(schedule.queues.size(), kNone);
   for (uint32_t segment = 0; segment < schedule.segments; ++segment) last[schedule.queue_of[segment]] = schedule.batch_of[segment];
   for (uint32_t cell = 0; cell < frame.cells.size(); ++cell) {
@@ -250,10 +256,13 @@ bool HappensBefore::can_begin(const SyncFact& fact, const SyncSource& source) co
 // Nothing sees a write but barriers on its cell, waits, and its own transition.
 bool HappensBefore::can_sink(const SyncFact& fact, const SyncSource& source) const {
   if (!waits_on_[fact.queue].empty() || fact.before > end()) return true;
-  return std::any_of(local_.begin(), local_.end(), [&](uint32_t s) {
-    const SyncScope& scope = scopes[s];
-    return scope.point < fact.before && !scope.gone && !scope.transfers && (scope.dst & fact.stages) && (scope.dst_accesses & fact.access);
-  }) || source.kind == SyncSource::Kind::transition;
+  return std::any_of(local_.begin(), local_.end(),
+                     [&](uint32_t s) {
+                       const SyncScope& scope = scopes[s];
+                       return scope.point < fact.before && !scope.gone && !scope.transfers && (scope.dst & fact.stages) &&
+                              (scope.dst_accesses & fact.access);
+                     }) ||
+         source.kind == SyncSource::Kind::transition;
 }
 
 bool HappensBefore::derive(const SyncFact& fact, std::vector<SyncAtom>& atoms) {
@@ -270,7 +279,8 @@ bool HappensBefore::derive_directly(const SyncFact& fact, const SyncSource& sour
   if (source.kind != Kind::read && source.kind != Kind::write) return false;
   const auto leads = [&](uint32_t s) {
     const SyncScope& scope = scopes[s];
-    if (scope.gone || scope.queue != source.queue || scope.point < source.after || (scope.transfers && fact.kind != SyncFact::Kind::feeds)) return false;
+    if (scope.gone || scope.queue != source.queue || scope.point < source.after || (scope.transfers && fact.kind != SyncFact::Kind::feeds))
+      return false;
     if (source.kind == Kind::read) return (scope.src_earlier & source.stage) != 0;
     return (scope.src & source.stage) && (scope.src_accesses & source.access);
   };
@@ -288,7 +298,8 @@ bool HappensBefore::derive_directly(const SyncFact& fact, const SyncSource& sour
       add_sink(s, fact, atoms);
       return found(s, 0);
     }
-    if (fact.kind == SyncFact::Kind::follows && (scope.dst_later & fact.stages)) return found(s, scope.dst_later & fact.stages & ~((scope.dst_later & fact.stages) - 1));
+    if (fact.kind == SyncFact::Kind::follows && (scope.dst_later & fact.stages))
+      return found(s, scope.dst_later & fact.stages & ~((scope.dst_later & fact.stages) - 1));
   }
   return false;
 }

@@ -2,10 +2,11 @@
 //
 //   source ──barrier──> stages of its queue ──signal──> queue ──wait──> stages of the other queue ──barrier──> target
 //
-// A source is an access of one stage, a layout transition, or what is pending when the frame starts. What comes after it spreads forward over the points
-// of the frame: a barrier goes on from where its first scope, with logically earlier stages, is met, to its second scope with logically later ones, on its
-// own queue; barriers of one point do not chain. Writes become available where a barrier on their range, or a signal, names them, and are seen in exactly
-// the second scope of a barrier on their range, or of a wait. Half a change of owner leads nowhere: within one family it is not recorded.
+// A source is an access of one stage, a layout transition, or what is pending when the frame starts. What comes after it spreads forward over the
+// points of the frame: a barrier goes on from where its first scope, with logically earlier stages, is met, to its second scope with logically later
+// ones, on its own queue; barriers of one point do not chain. Writes become available where a barrier on their range, or a signal, names them, and
+// are seen in exactly the second scope of a barrier on their range, or of a wait. Half a change of owner leads nowhere: within one family it is not
+// recorded.
 //
 // A derivation is what one such way from a source to a target rests on: single atoms (a barrier, a wait, one stage or access of one). The facts of a
 // plan hold as long as each has a derivation, so an atom that none rests on can go (justifications as in Doyle 1979, "A truth maintenance system").
@@ -30,10 +31,10 @@ struct SyncScope {
   Accesses src_accesses = 0, dst_accesses = 0;
   bool changes = false, transfers = false;  // layout or owner; owner
   Layout old_layout = Layout::undefined, new_layout = Layout::undefined;
-  bool everything = false;                  // the signal that ends the frame of its queue
-  uint32_t from_queue = 0;                  // of a wait
-  int64_t number = 0;                       // batch waited for, or that signals; -1: the frame before
-  uint32_t slot = 0, index = 0;             // a barrier's place; a wait's batch and place there; a signal's batch
+  bool everything = false;       // the signal that ends the frame of its queue
+  uint32_t from_queue = 0;       // of a wait
+  int64_t number = 0;            // batch waited for, or that signals; -1: the frame before
+  uint32_t slot = 0, index = 0;  // a barrier's place; a wait's batch and place there; a signal's batch
   bool gone = false;
   Stages src_earlier = 0, dst_later = 0;  // completed
   void complete();
@@ -59,9 +60,9 @@ struct SyncSource {
 };
 
 struct SyncFact {
-  // sees: `stages` of `queue` (one bit) see the write in `access`. follows: one of `stages` of `queue` comes after the source. feeds: the barrier `scope`
-  // has the source in its first scope. host: the host sees the write, on whatever queue. All hold before the point `before`, which counts on through the frames after that of
-  // the source.
+  // sees: `stages` of `queue` (one bit) see the write in `access`. follows: one of `stages` of `queue` comes after the source. feeds: the barrier
+  // `scope` has the source in its first scope. host: the host sees the write, on whatever queue. All hold before the point `before`, which counts on
+  // through the frames after that of the source.
   enum class Kind : uint8_t { sees, follows, feeds, host } kind = Kind::sees;
   uint32_t source = 0, before = 0, queue = 0;
   Stages stages = 0;

@@ -48,13 +48,14 @@ struct Carried {
 
 class CellWalk {
  public:
-  CellWalk(const Frame& frame, const Schedule& schedule, uint32_t cell, HappensBefore& order, Obligations& found, std::set<uint32_t>& needed, bool shared)
+  CellWalk(const Frame& frame, const Schedule& schedule, uint32_t cell, HappensBefore& order, Obligations& found, std::set<uint32_t>& needed,
+           bool shared)
       : frame_(frame), schedule_(schedule), cell_(cell), order_(order), found_(found), needed_(needed), shared_(shared) {}
 
   // `unread`: the readers that the rows name may all have been skipped.
   void enter(Rows rows, bool signalled, bool unread) {
-    Pending settled{add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread,
-                    unread, {}};
+    Pending settled{
+        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, unread, {}};
     if (!rows.empty()) layout_ = rows.front().row.layout, owner_ = rows.front().row.discard ? kNone : rows.front().row.queue;
     bool writes = false, any = false;
     for (const auto& [cell, row] : rows) {
@@ -267,7 +268,7 @@ class CellWalk {
   bool giving_ = false;
   bool shared_ = false;  // by all families
   Layout layout_ = Layout::undefined;
-  uint32_t owner_ = kNone;  // queue
+  uint32_t owner_ = kNone;          // queue
   uint32_t skipping_ = UINT32_MAX;  // the transition that `without_` leaves out
   CellState without_;
   Carried carried_;
@@ -276,7 +277,14 @@ class CellWalk {
 class Finder {
  public:
   Finder(const Frame& frame, const Schedule& schedule, const SyncPlan& sync, HappensBefore& order)
-      : frame_(frame), schedule_(schedule), order_(order), concurrent_(sync.concurrent), entry_(frame.cells.size()), exit_(entry_), acquire_of_(frame.graph->resources.size()), queue_of_slot_(schedule.queues_of_slots()) {
+      : frame_(frame),
+        schedule_(schedule),
+        order_(order),
+        concurrent_(sync.concurrent),
+        entry_(frame.cells.size()),
+        exit_(entry_),
+        acquire_of_(frame.graph->resources.size()),
+        queue_of_slot_(schedule.queues_of_slots()) {
     index(sync.entry, entry_), index(sync.exit, exit_);
     for (const Acquire& acquire : sync.acquires)
       if (!frame.graph->resources.rows[acquire.resource].no_alias) acquire_of_[acquire.resource] = &acquire;
@@ -400,16 +408,16 @@ class Finder {
         if (before == UINT32_MAX || schedule_.queue_of_pass(before) == schedule_.queue_of_pass(pass)) continue;
         const auto point = [&](uint32_t of) { return order_.point_of_slot(schedule_.slot_before(schedule_.segment_of[of])); };
         order_.sources.push_back({SyncSource::Kind::batch, 0, schedule_.queue_of_pass(before), point(before) + 1, 0, 0, 0, false, {}});
-        found_.facts.push_back({SyncFact::Kind::follows, static_cast<uint32_t>(order_.sources.size()) - 1, point(pass), schedule_.queue_of_pass(pass), 1, 0, 0,
-                          UINT32_MAX});
+        found_.facts.push_back({SyncFact::Kind::follows, static_cast<uint32_t>(order_.sources.size()) - 1, point(pass), schedule_.queue_of_pass(pass),
+                                1, 0, 0, UINT32_MAX});
       }
   }
 
   const Frame& frame_;
   const Schedule& schedule_;
   HappensBefore& order_;
-  const std::vector<bool>& concurrent_;  // by program resource
-  std::vector<Rows> entry_, exit_;       // by cell
+  const std::vector<bool>& concurrent_;     // by program resource
+  std::vector<Rows> entry_, exit_;          // by cell
   std::vector<const Acquire*> acquire_of_;  // by program resource
   std::vector<uint32_t> queue_of_slot_;
   std::set<uint32_t> needed_;
@@ -418,7 +426,8 @@ class Finder {
 
 }  // namespace
 
-Obligations find_obligations(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const SyncPlan& sync, HappensBefore& order) {
+Obligations find_obligations(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const SyncPlan& sync,
+                             HappensBefore& order) {
   return Finder(frame, schedule, sync, order).run(lines);
 }
 

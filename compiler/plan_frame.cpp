@@ -200,7 +200,7 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   });
 
   result.decisions = watch.time("explain", [&] { return explain_plan(parts, graph, result.plan); });
-  result.overlap = queues.overlap;
+  result.overlap = queues.overlap, result.unproved = sync.unproved;
   result.order = order_facts(frame, graph, one_queue, schedule, sync);
   result.decisions.insert(result.decisions.end(), renderings.decisions.begin(), renderings.decisions.end());
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());

@@ -73,6 +73,7 @@ struct FramePlan {
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
   Overlap overlap;
   OrderFacts order;
+  uint32_t unproved = 0;  // facts that synchronisation has to achieve and does not, see obligations.h: 0, or the planner is wrong
   std::vector<std::pair<std::string, double>> phase_ms;
 };
 

@@ -67,7 +67,7 @@ struct SyncPlan {
   std::vector<CellBoundary> entry, exit;    // one row a queue that has last users
   std::vector<Acquire> acquires;            // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
-  uint32_t unproved = 0;                    // facts of obligations.h that do not hold: the planner is wrong
+  uint32_t unproved = 0;  // facts of obligations.h that do not hold: the planner is wrong
 };
 
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options);

@@ -106,11 +106,10 @@ void add_scope(Model& model, Scope scope) {
     return model.scopes[other.scope].raw_src == scope.raw_src && model.scopes[other.scope].raw_dst == scope.raw_dst;
   });
   // Half a change of owner orders nothing but itself: its other scope does not apply (VkImageMemoryBarrier2, release and acquire operations).
-  if (scope.transfer != Ownership::none)
-    ;
-  else if (same != group.classes.end())
+  const bool orders = scope.transfer == Ownership::none;
+  if (orders && same != group.classes.end())
     same->sole = false;
-  else if (scope.src != 0 && scope.dst != 0)
+  else if (orders && scope.src != 0 && scope.dst != 0)
     group.classes.push_back({id, true});
   model.scopes.push_back(std::move(scope));
 }

@@ -35,9 +35,7 @@ void report_atom(const Model& model, const Scope& scope, const std::string& text
 }
 
 // The last signal of a queue tells the host, and the frames of other plans, that all is done.
-bool retires_frame(const Model& model, const Scope& scope) {
-  return scope.kind == ScopeKind::signal && scope.value == model.signals_on[scope.queue];
-}
+bool retires_frame(const Model& model, const Scope& scope) { return scope.kind == ScopeKind::signal && scope.value == model.signals_on[scope.queue]; }
 
 }  // namespace
 
