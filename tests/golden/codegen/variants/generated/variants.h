@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "runtime/typed.h"
@@ -26,22 +27,24 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
+    {.passes = 3, .shaders = 4, .pipelines = 3, .barrier_groups = 4, .image_barriers = 5, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
-    {.position = 1, .group = 2, .barriers = 2},  // show
+    {.position = 1, .group = 2, .barriers = 1},  // dim
+    {.position = 2, .group = 3, .barriers = 2},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
-    {.bytes = 65536, .transient = true, .last = 1},  // base
+    {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 2},  // base
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
-inline constexpr rg::Index show = 1;
+inline constexpr rg::Index dim = 1;
+inline constexpr rg::Index show = 2;
 }
 
 // Indices of Plan::resources.
@@ -141,29 +144,36 @@ struct Extents {
 
 // What the engine brings each frame, in the declared state.
 struct Imports {
-  rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:29
+  rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:35
+};
+
+// Which variants of shaders this frame runs, and which passes.
+struct Features {
+  bool bright = false;  // variants.rg:5
 };
 
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
+    {.passes = 3, .shaders = 4, .pipelines = 3, .barrier_groups = 4, .image_barriers = 5, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
-    {.position = 1, .group = 2, .barriers = 2},  // show
+    {.position = 1, .group = 2, .barriers = 1},  // halo
+    {.position = 2, .group = 3, .barriers = 2},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
-    {.bytes = 65536, .transient = true, .last = 1},  // base
+    {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 2},  // base
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
-inline constexpr rg::Index show = 1;
+inline constexpr rg::Index halo = 1;
+inline constexpr rg::Index show = 2;
 }
 
 // Indices of Plan::resources.
@@ -179,14 +189,14 @@ class Second {
   rg::Status resize(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
-  rg::Status execute(const Imports& imports) {
-    return submit(imports, nullptr, nullptr);
+  rg::Status execute(const Imports& imports, const Features& features) {
+    return submit(imports, features, nullptr, nullptr);
   }
 
   rg::GraphInstance& instance() { return instance_; }
 
  private:
-  rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
+  rg::Status submit(const Imports& imports, const Features& features, const rg::RecordFunction* callbacks, void* recorder);
   explicit Second(rg::GraphInstance instance) : instance_(std::move(instance)) {}
   rg::GraphInstance instance_;
 };
