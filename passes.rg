@@ -15,6 +15,8 @@ import "passes/debug/debug.rg"
 target vulkan 1.3
 extent view = runtime(640, 360) max(3840, 2160)
 
+feature holograms: bool  // removes a pass and nothing else: a condition of the one plan
+
 graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene: Scene, surface backbuffer: rgba8 view after copy_src)
 {
   // ---- what several passes take alike ---------------------------------------------------------------------------------
@@ -299,10 +301,12 @@ graph frame(params camera: View, params fog: Fog, params lamps: LampViews, scene
     depth  depth readonly
     draw   host { per_draw GlassDraw }
   }
-  pass hologram : raster {  // pipelines of the host's own, built from PassInfo
-    color  hdr blend add(one, one)
-    depth  depth readonly
-    draw   host { per_draw HologramDraw }
+  when holograms {
+    pass hologram : raster {  // pipelines of the host's own, built from PassInfo
+      color  hdr blend add(one, one)
+      depth  depth readonly
+      draw   host { per_draw HologramDraw }
+    }
   }
 
   image debug_image : rgba8 view

@@ -385,14 +385,14 @@ struct Imports {
   rg::Required<rg::ImportedBuffer> scene_prop_indices;  // passes/scene/scene.rg:111
   rg::Required<rg::ImportedImage> scene_albedo_maps;  // passes/scene/scene.rg:112
   rg::Required<rg::ImportedImage> scene_surface_maps;  // passes/scene/scene.rg:113
-  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:18
+  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:20
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View camera = {};  // passes.rg:18
-  Fog fog = {};  // passes.rg:18
-  LampViews lamps = {};  // passes.rg:18
+  View camera = {};  // passes.rg:20
+  Fog fog = {};  // passes.rg:20
+  LampViews lamps = {};  // passes.rg:20
 };
 
 // Latched when the frame is recorded.
@@ -400,21 +400,26 @@ struct Conditions {
   bool lamps_moved = {};
 };
 
+// Which variants of shaders this frame runs, and which passes.
+struct Features {
+  bool holograms = false;  // passes.rg:18
+};
+
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:48
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:50
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:104
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:106
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:210
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:212
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:260
+struct TransparentPass : rg::RasterRecording {  // passes.rg:262
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:281
+struct HologramPass : rg::RasterRecording {  // passes.rg:284
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -688,7 +693,7 @@ class Frame {
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
-  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, R& recorder) {
+  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features, R& recorder) {
     static constexpr rg::RecordFunction callbacks[] = {
         record<R, SunShadowPropsPass, [](R& r, SunShadowPropsPass& pass) { r.sun_shadow_props(pass); }>,
         record<R, DepthPropsPass, [](R& r, DepthPropsPass& pass) { r.depth_props(pass); }>,
@@ -696,12 +701,12 @@ class Frame {
         record<R, TransparentPass, [](R& r, TransparentPass& pass) { r.transparent(pass); }>,
         record<R, HologramPass, [](R& r, HologramPass& pass) { r.hologram(pass); }>,
     };
-    return submit(imports, params, conditions, callbacks, &recorder);
+    return submit(imports, params, conditions, features, callbacks, &recorder);
   }
 
-  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:23
+  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:25
   rg::Result<std::span<const uint32_t>> cull_counts();
-  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:139
+  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:141
   rg::Result<std::span<const uint32_t>> tile_features();
 
   rg::GraphInstance& instance() { return instance_; }
@@ -712,7 +717,8 @@ class Frame {
     Pass pass{{recording}};
     method(*static_cast<R*>(user), pass);
   }
-  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder);
+  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features,
+                    const rg::RecordFunction* callbacks, void* recorder);
   explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
   rg::GraphInstance instance_;
 };

@@ -242,23 +242,23 @@ constexpr Resource kResources[] = {
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
+     .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 20, .file = "passes.rg"},
     {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 16252928, .line = 21, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 16252928, .line = 23, .file = "passes.rg"},
     {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
-     .estimated_offset = 10420224, .line = 22, .file = "passes.rg"},
+     .estimated_offset = 10420224, .line = 24, .file = "passes.rg"},
     {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 88, .stride = 4,
-     .estimated_bytes = 256, .line = 23, .file = "passes.rg"},
+     .estimated_bytes = 256, .line = 25, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 36, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 38, .file = "passes.rg"},
     {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 89, .stride = 16, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .estimated_offset = 12926976, .line = 59, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 12926976, .line = 61, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
-     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 60, .file = "passes.rg"},
+     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 62, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 86, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 88, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 11010048, .line = 87, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 11010048, .line = 89, .file = "passes.rg"},
     {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 90, .stride = 4, .estimated_bytes = 147456,
      .estimated_alignment = 256, .estimated_offset = 12779520, .line = 98, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 91, .stride = 4, .estimated_bytes = 2359296,
@@ -274,55 +274,55 @@ constexpr Resource kResources[] = {
      .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 103,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .line = 92, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 94, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 16842752, .line = 114, .file = "passes.rg"},
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 16842752, .line = 116, .file = "passes.rg"},
     {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 16776192, .line = 132, .file = "passes.rg"},
+     .estimated_offset = 16776192, .line = 134, .file = "passes.rg"},
     {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 16808960, .line = 133, .file = "passes.rg"},
+     .estimated_offset = 16808960, .line = 135, .file = "passes.rg"},
     {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 92, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 16252928, .line = 134, .file = "passes.rg"},
+     .estimated_offset = 16252928, .line = 136, .file = "passes.rg"},
     {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 93, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 16841728, .line = 135, .file = "passes.rg"},
+     .estimated_offset = 16841728, .line = 137, .file = "passes.rg"},
     {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 16285696, .line = 136, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 16285696, .line = 138, .file = "passes.rg"},
     {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 16516096, .line = 137, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 16516096, .line = 139, .file = "passes.rg"},
     {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 96, .stride = 264, .estimated_bytes = 242944,
-     .estimated_alignment = 256, .estimated_offset = 18874368, .line = 138, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 18874368, .line = 140, .file = "passes.rg"},
     {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 97, .stride = 4,
-     .estimated_bytes = 3840, .line = 139, .file = "passes.rg"},
+     .estimated_bytes = 3840, .line = 141, .file = "passes.rg"},
     {.name = "tile_kernels", .format = Format{98}, .width = 23, .height = 24, .aspects = aspect_color, .usage = 8, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .estimated_offset = 18677760, .line = 140, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18677760, .line = 142, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 11337728, .line = 186, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 11337728, .line = 188, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 187, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 189, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 188, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 190, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 189, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 191, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 190, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 192, .file = "passes.rg"},
     {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 18743296, .line = 226, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18743296, .line = 228, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 16777216, .line = 227, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 16777216, .line = 229, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 287, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 291, .file = "passes.rg"},
     {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 98, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1966080, .line = 313, .file = "passes.rg"},
+     .estimated_offset = 1966080, .line = 317, .file = "passes.rg"},
     {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 99, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 314, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 256, .line = 318, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 315, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 319, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .estimated_offset = 2031616, .line = 316, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 2031616, .line = 320, .file = "passes.rg"},
     {.name = "deferred_light.arguments", .kind = ResourceKind::buffer, .usage = 290, .bytes = 100, .stride = 4, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 16746496, .line = 237, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 16746496, .line = 239, .file = "passes.rg"},
     {.name = "deferred_light.tiles", .kind = ResourceKind::buffer, .usage = 32, .bytes = 101, .stride = 4, .estimated_bytes = 29440,
-     .estimated_alignment = 256, .estimated_offset = 16746752, .line = 237, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 16746752, .line = 239, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -979,207 +979,207 @@ constexpr Access kAccesses[] = {
 
 constexpr Pass kPasses[] = {
     {.name = "mesh_cull.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 25, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 27, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 30, .z = 30}, .line = 25, .file = "passes.rg"},
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 30, .z = 30}, .line = 27, .file = "passes.rg"},
     {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 5, .access_count = 2, .pipeline = 1,
      .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 18, .z = 30},
-     .line = 63, .file = "passes.rg"},
+     .line = 65, .file = "passes.rg"},
     {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 7, .access_count = 5, .rendering = 0, .pipeline = 2,
      .first_binding = 9, .binding_count = 4, .first_params = 3, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 38, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 40, .file = "passes.rg"},
     {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 12, .access_count = 5, .rendering = 1,
      .pipeline = 3, .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 17, .access_count = 5, .rendering = 2,
      .pipeline = 4, .first_binding = 17, .binding_count = 4, .first_params = 5, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 22, .access_count = 5, .rendering = 3, .pipeline = 5,
      .first_binding = 21, .binding_count = 4, .first_params = 6, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 94, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 96, .file = "passes.rg"},
     {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 27, .access_count = 3, .rendering = 4, .pipeline = 6,
      .first_binding = 25, .binding_count = 1, .first_params = 7, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 48, .file = "passes.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 50, .file = "passes.rg"},
     {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 30, .access_count = 5, .rendering = 5,
      .pipeline = 7, .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 35, .access_count = 5, .rendering = 6,
      .pipeline = 8, .first_binding = 30, .binding_count = 4, .first_params = 9, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 40, .access_count = 3, .rendering = 7, .pipeline = 9,
      .first_binding = 34, .binding_count = 1, .first_params = 10, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 104, .file = "passes.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 106, .file = "passes.rg"},
     {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 8,
      .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 48, .access_count = 5, .rendering = 9,
      .pipeline = 11, .first_binding = 39, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 53, .access_count = 2, .pipeline = 12,
-     .first_binding = 43, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 116, .file = "passes.rg"},
+     .first_binding = 43, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 118, .file = "passes.rg"},
     {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 10,
      .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 60, .access_count = 5, .rendering = 11,
      .pipeline = 14, .first_binding = 49, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
-     .line = 72, .file = "passes.rg"},
+     .line = 74, .file = "passes.rg"},
     {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 65, .access_count = 4, .pipeline = 15,
      .first_binding = 53, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 39, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 69, .access_count = 2, .pipeline = 16,
-     .first_binding = 59, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .mip_limit_count = 1, .line = 123,
+     .first_binding = 59, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .mip_limit_count = 1, .line = 125,
      .file = "passes.rg"},
     {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 71, .access_count = 4, .pipeline = 17,
      .first_binding = 61, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 57, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 75, .access_count = 2, .pipeline = 18,
      .first_binding = 67, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 77, .access_count = 10, .pipeline = 19,
      .first_binding = 69, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 67, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 87, .access_count = 2, .pipeline = 20,
      .first_binding = 81, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 89, .access_count = 4, .pipeline = 21,
      .first_binding = 83, .binding_count = 6, .first_params = 21, .params_count = 2,
      .work = {.kind = WorkKind::dispatch, .x = 113, .y = 114, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 93, .access_count = 2, .pipeline = 22,
      .first_binding = 89, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
      .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
      .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 99, .access_count = 2, .pipeline = 25,
      .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 123, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 125, .file = "passes.rg"},
     {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 101, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 142, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 144, .file = "passes.rg"},
     {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 157, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 159, .file = "passes.rg"},
     {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
      .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 192, .file = "passes.rg"},
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 194, .file = "passes.rg"},
     {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
-     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 142,
+     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 144,
      .file = "passes.rg"},
     {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
      .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 123, .y = 30, .z = 30}, .line = 157, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 123, .y = 30, .z = 30}, .line = 159, .file = "passes.rg"},
     {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 123, .access_count = 4, .pipeline = 29, .first_binding = 112,
-     .binding_count = 5, .first_params = 26, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 175,
+     .binding_count = 5, .first_params = 26, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 177,
      .file = "passes.rg"},
     {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 127, .access_count = 8, .rendering = 13, .pipeline = 30,
      .first_binding = 117, .binding_count = 1, .first_params = 27, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 210, .file = "passes.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 212, .file = "passes.rg"},
     {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 135, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 237, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 239, .file = "passes.rg"},
     {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 136, .access_count = 3, .pipeline = 31, .first_binding = 118,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 30, .z = 30}, .line = 150, .file = "passes.rg"},
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 30, .z = 30}, .line = 152, .file = "passes.rg"},
     {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 5, .pipeline = 32, .first_binding = 121,
-     .binding_count = 6, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 165,
+     .binding_count = 6, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 167,
      .file = "passes.rg"},
     {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 144, .access_count = 3, .pipeline = 33,
      .first_binding = 127, .binding_count = 4, .first_params = 29, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 229, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 231, .file = "passes.rg"},
     {.name = "deferred_light.classify", .module = "frame", .kind = PassKind::compute, .first_access = 147, .access_count = 4, .pipeline = 34,
-     .first_binding = 131, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 237, .file = "passes.rg"},
+     .first_binding = 131, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[0]", .module = "frame", .kind = PassKind::compute, .first_access = 151, .access_count = 18, .pipeline = 35,
      .first_binding = 135, .binding_count = 19, .first_params = 30, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 31},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[1]", .module = "frame", .kind = PassKind::compute, .first_access = 169, .access_count = 18, .pipeline = 36,
      .first_binding = 154, .binding_count = 19, .first_params = 32, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 70},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[2]", .module = "frame", .kind = PassKind::compute, .first_access = 187, .access_count = 18, .pipeline = 37,
      .first_binding = 173, .binding_count = 19, .first_params = 34, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 68},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[3]", .module = "frame", .kind = PassKind::compute, .first_access = 205, .access_count = 18, .pipeline = 38,
      .first_binding = 192, .binding_count = 19, .first_params = 36, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 71},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[4]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 18, .pipeline = 39,
      .first_binding = 211, .binding_count = 19, .first_params = 38, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 72},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[5]", .module = "frame", .kind = PassKind::compute, .first_access = 241, .access_count = 18, .pipeline = 40,
      .first_binding = 230, .binding_count = 19, .first_params = 40, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 73},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[6]", .module = "frame", .kind = PassKind::compute, .first_access = 259, .access_count = 18, .pipeline = 41,
      .first_binding = 249, .binding_count = 19, .first_params = 42, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 74},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "deferred_light[7]", .module = "frame", .kind = PassKind::compute, .first_access = 277, .access_count = 18, .pipeline = 42,
      .first_binding = 268, .binding_count = 19, .first_params = 44, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 75},
-     .line = 237, .file = "passes.rg"},
+     .line = 239, .file = "passes.rg"},
     {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 295, .access_count = 14, .rendering = 14, .pipeline = 43,
      .first_binding = 287, .binding_count = 14, .first_params = 46, .params_count = 2, .push_bytes = 4, .push_stages = 17,
-     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 260, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 309, .access_count = 2, .rendering = 15, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 281, .file = "passes.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 262, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .guard = 2, .first_access = 309, .access_count = 2, .rendering = 15,
+     .push_bytes = 80, .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 284, .file = "passes.rg"},
     {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 311, .access_count = 5, .pipeline = 44,
      .first_binding = 301, .binding_count = 6, .first_params = 48, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 333, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 337, .file = "passes.rg"},
     {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 316, .access_count = 2, .pipeline = 45,
-     .first_binding = 307, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 343, .file = "passes.rg"},
+     .first_binding = 307, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 347, .file = "passes.rg"},
     {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 318, .access_count = 2, .pipeline = 46,
      .first_binding = 309, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 13,
-     .mip_limit_count = 1, .line = 350, .file = "passes.rg"},
+     .mip_limit_count = 1, .line = 354, .file = "passes.rg"},
     {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 320, .access_count = 2, .pipeline = 47,
      .first_binding = 311, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 14,
-     .mip_limit_count = 2, .line = 350, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
     {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 322, .access_count = 2, .pipeline = 48,
      .first_binding = 313, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 16,
-     .mip_limit_count = 2, .line = 350, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
     {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 324, .access_count = 17, .pipeline = 49,
      .first_binding = 315, .binding_count = 19, .first_params = 49, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 288, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 292, .file = "passes.rg"},
     {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 341, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 318, .file = "passes.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 322, .file = "passes.rg"},
     {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 342, .access_count = 2, .pipeline = 50,
      .first_binding = 334, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 350, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
     {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 344, .access_count = 2, .pipeline = 51, .first_binding = 336,
-     .binding_count = 2, .choice_count = 2, .feature_count = 1, .work = {.kind = WorkKind::dispatch, .x = 139, .y = 140, .z = 30}, .line = 318,
+     .binding_count = 2, .choice_count = 2, .feature_count = 1, .work = {.kind = WorkKind::dispatch, .x = 139, .y = 140, .z = 30}, .line = 322,
      .file = "passes.rg"},
     {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 346, .access_count = 2, .pipeline = 53,
      .first_binding = 338, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 141, .y = 142, .z = 30}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 350, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 354, .file = "passes.rg"},
     {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 348, .access_count = 3, .pipeline = 54, .first_binding = 340,
-     .binding_count = 4, .first_params = 51, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 325,
+     .binding_count = 4, .first_params = 51, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 329,
      .file = "passes.rg"},
     {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 351, .access_count = 2, .pipeline = 55,
      .first_binding = 344, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 358, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 362, .file = "passes.rg"},
     {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 353, .access_count = 2, .pipeline = 56,
      .first_binding = 346, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 358, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 362, .file = "passes.rg"},
     {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 355, .access_count = 2, .pipeline = 57,
      .first_binding = 348, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 358, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 362, .file = "passes.rg"},
     {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 357, .access_count = 2, .pipeline = 58,
      .first_binding = 350, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 358, .file = "passes.rg"},
+     .mip_limit_count = 2, .line = 362, .file = "passes.rg"},
     {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 359, .access_count = 2, .pipeline = 59,
      .first_binding = 352, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 30,
-     .mip_limit_count = 1, .line = 358, .file = "passes.rg"},
+     .mip_limit_count = 1, .line = 362, .file = "passes.rg"},
     {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 361, .access_count = 5, .rendering = 16, .pipeline = 60,
-     .first_binding = 354, .binding_count = 5, .first_params = 52, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 143}, .line = 365,
+     .first_binding = 354, .binding_count = 5, .first_params = 52, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 143}, .line = 369,
      .file = "passes.rg"},
 };
 
@@ -1552,36 +1552,36 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {},  // before mesh_cull.clear  passes.rg:25
-    {.buffer_count = 2},  // before mesh_cull  passes.rg:25
-    {.image_count = 3, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:38
-    {.first_image = 3, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:48
-    {.first_image = 6, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[4]  passes.rg:72
-    {.first_image = 9, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[6]  passes.rg:72
+    {},  // before mesh_cull.clear  passes.rg:27
+    {.buffer_count = 2},  // before mesh_cull  passes.rg:27
+    {.image_count = 3, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:40
+    {.first_image = 3, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:50
+    {.first_image = 6, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[4]  passes.rg:74
+    {.first_image = 9, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[6]  passes.rg:74
     {.first_image = 11, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
     {.first_image = 13, .image_count = 8, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
     {.first_image = 21, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
-    {.first_image = 26, .image_count = 1},  // before depth_range_down[5]  passes.rg:123
-    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:123
-    {.first_image = 28, .image_count = 6, .first_buffer = 10, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:123
-    {.first_image = 34, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before zbin_build  passes.rg:142
-    {.first_image = 40, .image_count = 3, .first_buffer = 14, .buffer_count = 5},  // before zbin_pack  passes.rg:150
-    {.first_image = 43, .image_count = 7, .first_buffer = 19, .buffer_count = 5},  // before deferred_light[0]  passes.rg:237
-    {.first_image = 50, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before transparent  passes.rg:260
-    {.first_image = 51, .image_count = 1},  // before hologram  passes.rg:281
-    {.first_image = 52, .image_count = 3},  // before resolve_temporal  passes.rg:333
-    {.first_image = 55, .image_count = 3},  // before bloom_first  passes.rg:343
-    {.first_image = 58, .image_count = 1},  // before bloom_down[1]  passes.rg:350
-    {.first_image = 59, .image_count = 1},  // before bloom_down[2]  passes.rg:350
-    {.first_image = 60, .image_count = 1},  // before bloom_down[3]  passes.rg:350
-    {.first_image = 61, .image_count = 3},  // before debug_view  passes.rg:288
-    {.first_image = 64, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // before luminance  passes.rg:318
-    {.first_image = 65, .image_count = 2, .first_buffer = 26, .buffer_count = 1},  // before expose  passes.rg:325
-    {.first_image = 67, .image_count = 2},  // before bloom_up[2]  passes.rg:358
-    {.first_image = 69, .image_count = 2},  // before bloom_up[3]  passes.rg:358
-    {.first_image = 71, .image_count = 2},  // before bloom_up[4]  passes.rg:358
-    {.first_image = 73, .image_count = 2},  // before bloom_up[5]  passes.rg:358
-    {.first_image = 75, .image_count = 3, .first_buffer = 27, .buffer_count = 1},  // before tonemap  passes.rg:365
+    {.first_image = 26, .image_count = 1},  // before depth_range_down[5]  passes.rg:125
+    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:125
+    {.first_image = 28, .image_count = 6, .first_buffer = 10, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:125
+    {.first_image = 34, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before zbin_build  passes.rg:144
+    {.first_image = 40, .image_count = 3, .first_buffer = 14, .buffer_count = 5},  // before zbin_pack  passes.rg:152
+    {.first_image = 43, .image_count = 7, .first_buffer = 19, .buffer_count = 5},  // before deferred_light[0]  passes.rg:239
+    {.first_image = 50, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before transparent  passes.rg:262
+    {.first_image = 51, .image_count = 1},  // before hologram  passes.rg:284
+    {.first_image = 52, .image_count = 3},  // before resolve_temporal  passes.rg:337
+    {.first_image = 55, .image_count = 3},  // before bloom_first  passes.rg:347
+    {.first_image = 58, .image_count = 1},  // before bloom_down[1]  passes.rg:354
+    {.first_image = 59, .image_count = 1},  // before bloom_down[2]  passes.rg:354
+    {.first_image = 60, .image_count = 1},  // before bloom_down[3]  passes.rg:354
+    {.first_image = 61, .image_count = 3},  // before debug_view  passes.rg:292
+    {.first_image = 64, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // before luminance  passes.rg:322
+    {.first_image = 65, .image_count = 2, .first_buffer = 26, .buffer_count = 1},  // before expose  passes.rg:329
+    {.first_image = 67, .image_count = 2},  // before bloom_up[2]  passes.rg:362
+    {.first_image = 69, .image_count = 2},  // before bloom_up[3]  passes.rg:362
+    {.first_image = 71, .image_count = 2},  // before bloom_up[4]  passes.rg:362
+    {.first_image = 73, .image_count = 2},  // before bloom_up[5]  passes.rg:362
+    {.first_image = 75, .image_count = 3, .first_buffer = 27, .buffer_count = 1},  // before tonemap  passes.rg:369
     {.first_image = 78, .image_count = 1, .first_buffer = 28, .buffer_count = 1},  // at the end of the frame
 };
 
@@ -2912,6 +2912,11 @@ constexpr Index kPassParams[] = {
 
 constexpr Feature kFeatures[] = {
     {.name = "subgroup_sums", .capability = Capability::subgroup_arithmetic},
+    {.name = "holograms"},
+};
+
+constexpr FeatureCondition kFeatureConditions[] = {
+    {.condition = 1, .feature = 1, .values = 2},
 };
 
 constexpr Index kPassFeatures[] = {
@@ -2923,7 +2928,7 @@ constexpr Index kPipelineChoices[] = {
 };
 
 constexpr std::string_view kConditions[] = {
-    "lamps_moved",
+    "lamps_moved", "holograms=on",
 };
 
 constexpr Transfer kTransfers[] = {
@@ -2942,7 +2947,7 @@ constexpr Plan kPlan =
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
      .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
      .pass_params = kPassParams, .features = kFeatures, .pass_features = kPassFeatures, .pipeline_choices = kPipelineChoices, .transfers = kTransfers,
-     .mip_limits = kMipLimits, .conditions = kConditions, .estimated_heap_bytes = 19117312};
+     .mip_limits = kMipLimits, .conditions = kConditions, .feature_conditions = kFeatureConditions, .estimated_heap_bytes = 19117312};
 
 }  // namespace
 
@@ -2966,8 +2971,8 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
 
 rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
 
-rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
-                         void* recorder) {
+rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features,
+                         const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
   inputs.callbacks = callbacks;
   inputs.user = recorder;
@@ -2993,6 +2998,7 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
   inputs.params = params_rows;
   const uint32_t feature_rows[] = {
       0 /* subgroup_sums: the device knows */,
+      static_cast<uint32_t>(features.holograms),
   };
   inputs.features = feature_rows;
   if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;

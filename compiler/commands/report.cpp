@@ -99,6 +99,15 @@ std::string variants_text(const compiler::ShaderBundle& bundle) {
   return text;
 }
 
+// Features that took no plans of their own.
+std::string merged_text(const dsl::Program& program) {
+  std::string text;
+  for (const dsl::Condition& condition : program.conditions)
+    if (condition.feature.valid())
+      text += fmt::format("  feature {} only removes passes: `{}` is a condition of the plan\n", program.features[condition.feature].name, condition.name);
+  return text;
+}
+
 nlohmann::ordered_json variants_json(const std::vector<compiler::CompiledGraph>& graphs) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const compiler::CompiledGraph& graph : graphs)
@@ -145,6 +154,7 @@ int report(const ReportOptions& options) {
     }
     if (!options.json) print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + variants_text(graph.shaders));
   }
+  if (!options.json) print(merged_text(result->program));
   if (options.json) print(json_of(all, *result).dump(2) + "\n");
   return exit_done;
 }

@@ -64,7 +64,6 @@ struct Recorder {
     }
   }
   void hologram(frame::HologramPass& pass) {
-    if (!scene.has_hologram) return;
     pass.bind_pipeline(hologram_pipeline);
     pass.push(data.hologram);
     pass.draw(kHologramVertices);
@@ -242,8 +241,10 @@ Status Renderer::render(const FrameData& data) {
   params.lamps = data.lamps;
   frame::Conditions conditions;
   conditions.lamps_moved = s.shadows.update(data);
+  frame::Features features;
+  features.holograms = s.scene->has_hologram;
   Recorder recorder{*s.scene, s.gpu, data, s.hologram_pipeline.get()};
-  return s.graph->execute(imports, params, conditions, recorder);
+  return s.graph->execute(imports, params, conditions, features, recorder);
 }
 
 Result<Picture> Renderer::picture() {

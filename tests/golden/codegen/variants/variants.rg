@@ -1,4 +1,4 @@
-// Two graphs, one of them in two configurations, that share a shader file behind different interfaces.
+// Two graphs, one of them in two configurations, one with passes that a feature removes, that share a shader file behind different interfaces.
 module variants
 
 extent view = runtime(64, 32) max(256, 256)
@@ -18,6 +18,12 @@ graph first(surface backbuffer: rgba8 view after copy_src)
       update base as storage
       dispatch over view
     }
+  } else {
+    pass dim : compute {
+      shader "glow.comp" group 8 8 1
+      update base as storage
+      dispatch over view
+    }
   }
   pass show : raster {
     fullscreen "show.frag"
@@ -33,6 +39,13 @@ graph second(surface backbuffer: rgba8 view after copy_src)
     shader "fill.comp" group 8 8 1
     write  target = base as storage
     dispatch over view
+  }
+  when bright {
+    pass halo : compute {
+      shader "halo.comp" group 8 8 1
+      update base as storage
+      dispatch over view
+    }
   }
   pass show : raster {
     fullscreen "show.frag"

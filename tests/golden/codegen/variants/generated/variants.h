@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "runtime/typed.h"
@@ -26,22 +27,24 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
+    {.passes = 3, .shaders = 4, .pipelines = 3, .barrier_groups = 4, .image_barriers = 5, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
-    {.position = 1, .group = 2, .barriers = 2},  // show
+    {.position = 1, .group = 2, .barriers = 1},  // dim
+    {.position = 2, .group = 3, .barriers = 2},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
-    {.bytes = 65536, .transient = true, .last = 1},  // base
+    {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 2},  // base
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
-inline constexpr rg::Index show = 1;
+inline constexpr rg::Index dim = 1;
+inline constexpr rg::Index show = 2;
 }
 
 // Indices of Plan::resources.
@@ -50,24 +53,23 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class First : public rg::TypedFrame {
+class First {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
-  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
-  static rg::Result<First> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
-  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
-  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports) {
     return submit(imports, nullptr, nullptr);
   }
 
+  rg::GraphInstance& instance() { return instance_; }
+
  private:
   rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  using TypedFrame::TypedFrame;
+  explicit First(rg::GraphInstance instance) : instance_(std::move(instance)) {}
+  rg::GraphInstance instance_;
 };
 
 }  // namespace first_graph::bright_off
@@ -113,24 +115,23 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class First : public rg::TypedFrame {
+class First {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
-  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
-  static rg::Result<First> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
-  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
-  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports) {
     return submit(imports, nullptr, nullptr);
   }
 
+  rg::GraphInstance& instance() { return instance_; }
+
  private:
   rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  using TypedFrame::TypedFrame;
+  explicit First(rg::GraphInstance instance) : instance_(std::move(instance)) {}
+  rg::GraphInstance instance_;
 };
 
 }  // namespace first_graph::bright_on
@@ -143,29 +144,36 @@ struct Extents {
 
 // What the engine brings each frame, in the declared state.
 struct Imports {
-  rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:29
+  rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:35
+};
+
+// Which variants of shaders this frame runs, and which passes.
+struct Features {
+  bool bright = false;  // variants.rg:5
 };
 
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 2, .shaders = 3, .pipelines = 2, .barrier_groups = 3, .image_barriers = 4, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
+    {.passes = 3, .shaders = 4, .pipelines = 3, .barrier_groups = 4, .image_barriers = 5, .batches = 1, .heap_bytes = 65536, .unaliased_bytes = 65536,
      .lower_bound_bytes = 65536};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
-    {.position = 1, .group = 2, .barriers = 2},  // show
+    {.position = 1, .group = 2, .barriers = 1},  // halo
+    {.position = 2, .group = 3, .barriers = 2},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
-    {.bytes = 65536, .transient = true, .last = 1},  // base
+    {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
+    {.bytes = 65536, .transient = true, .last = 2},  // base
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill = 0;
-inline constexpr rg::Index show = 1;
+inline constexpr rg::Index halo = 1;
+inline constexpr rg::Index show = 2;
 }
 
 // Indices of Plan::resources.
@@ -174,24 +182,23 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class Second : public rg::TypedFrame {
+class Second {
  public:
   static rg::Result<Second> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
-  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
-  static rg::Result<Second> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
-  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
-  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
-  rg::Status execute(const Imports& imports) {
-    return submit(imports, nullptr, nullptr);
+  rg::Status execute(const Imports& imports, const Features& features) {
+    return submit(imports, features, nullptr, nullptr);
   }
 
+  rg::GraphInstance& instance() { return instance_; }
+
  private:
-  rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  using TypedFrame::TypedFrame;
+  rg::Status submit(const Imports& imports, const Features& features, const rg::RecordFunction* callbacks, void* recorder);
+  explicit Second(rg::GraphInstance instance) : instance_(std::move(instance)) {}
+  rg::GraphInstance instance_;
 };
 
 }  // namespace second_graph

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "shaders/fill.comp.spv.h"
+#include "shaders/glow.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
 #include "shaders/show.frag.spv.h"
 
@@ -38,6 +39,8 @@ constexpr Resource kResources[] = {
 constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // fill
+    {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // dim
     {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // show
     {.ref = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
@@ -47,20 +50,26 @@ constexpr Access kAccesses[] = {
 constexpr Pass kPasses[] = {
     {.name = "fill", .module = "variants", .kind = PassKind::compute, .access_count = 1, .pipeline = 0, .binding_count = 1,
      .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 10, .file = "variants.rg"},
-    {.name = "show", .module = "variants", .kind = PassKind::raster, .first_access = 1, .access_count = 2, .rendering = 0, .pipeline = 1,
-     .first_binding = 1, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 22, .file = "variants.rg"},
+    {.name = "dim", .module = "variants", .kind = PassKind::compute, .first_access = 1, .access_count = 1, .pipeline = 1, .first_binding = 1,
+     .binding_count = 1, .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 22, .file = "variants.rg"},
+    {.name = "show", .module = "variants", .kind = PassKind::raster, .first_access = 2, .access_count = 2, .rendering = 0, .pipeline = 2,
+     .first_binding = 2, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 28, .file = "variants.rg"},
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> fill
+    // fill -> dim
+    {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_read | access::shader_storage_write, .old_layout = Layout::general, .new_layout = Layout::general},
     {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::copy,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> show
     {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // fill -> show
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // dim -> show
     {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::copy, .dst_accesses = access::transfer_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::transfer_src},  // show -> frame end
@@ -68,8 +77,9 @@ constexpr ImageBarrier kImageBarriers[] = {
 
 constexpr BarrierGroup kGroups[] = {
     {.image_count = 1},  // before fill  variants.rg:10
-    {.first_image = 1, .image_count = 2},  // before show  variants.rg:22
-    {.first_image = 3, .image_count = 1},  // at the end of the frame
+    {.first_image = 1, .image_count = 1},  // before dim  variants.rg:22
+    {.first_image = 2, .image_count = 2},  // before show  variants.rg:28
+    {.first_image = 4, .image_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -90,11 +100,11 @@ constexpr Acquire kAcquires[] = {
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::base, .stages = stage::fragment_shader, .point = 2},
+    {.resource = resource::base, .stages = stage::fragment_shader, .point = 3},
 };
 
 constexpr Index kAliasClocks[] = {
-    0, 3,
+    0, 4,
 };
 
 constexpr Queue kQueues[] = {
@@ -105,12 +115,14 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
     {.kind = StepKind::pass, .index = pass::fill},
     {.kind = StepKind::barriers, .index = 1},
-    {.kind = StepKind::pass, .index = pass::show},
+    {.kind = StepKind::pass, .index = pass::dim},
     {.kind = StepKind::barriers, .index = 2},
+    {.kind = StepKind::pass, .index = pass::show},
+    {.kind = StepKind::barriers, .index = 3},
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 5},
+    {.step_count = 7},
 };
 
 constexpr Attachment kAttachments[] = {
@@ -124,12 +136,13 @@ constexpr Rendering kRenderings[] = {
 
 constexpr ShaderModule kShaders[] = {
     {.name = "fill.comp", .stage = ShaderStage::compute, .words = variants::spirv::fill_comp},
+    {.name = "glow.comp", .stage = ShaderStage::compute, .words = variants::spirv::glow_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = variants::spirv::rgc_fullscreen_vert},
     {.name = "show.frag", .stage = ShaderStage::fragment, .words = variants::spirv::show_frag},
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2,
+    0, 1, 2, 3,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -138,14 +151,21 @@ constexpr ColorBlend kBlends[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "fill", .pass = pass::fill, .shader_count = 1},
-    {.name = "show", .pass = pass::show, .first_shader = 1, .shader_count = 2, .blend_count = 1},
+    {.name = "dim", .pass = pass::dim, .first_shader = 1, .shader_count = 1},
+    {.name = "show", .pass = pass::show, .first_shader = 2, .shader_count = 2, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
     {.type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
      .layout = Layout::general},  // fill
+    {.type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // dim
     {.type = DescriptorType::sampled_image, .stages = 16, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // show
+};
+
+constexpr std::string_view kConditions[] = {
+    "bright=on",
 };
 
 constexpr Plan kPlan =
@@ -153,7 +173,7 @@ constexpr Plan kPlan =
      .queues = kQueues, .batches = kBatches, .steps = kSteps, .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit,
      .acquires = kAcquires, .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
-     .bindings = kBindings, .estimated_heap_bytes = 65536};
+     .bindings = kBindings, .conditions = kConditions, .estimated_heap_bytes = 65536};
 
 }  // namespace
 

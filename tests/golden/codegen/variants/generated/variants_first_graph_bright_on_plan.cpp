@@ -53,7 +53,7 @@ constexpr Pass kPasses[] = {
     {.name = "glow", .module = "variants", .kind = PassKind::compute, .first_access = 1, .access_count = 1, .pipeline = 1, .first_binding = 1,
      .binding_count = 1, .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 16, .file = "variants.rg"},
     {.name = "show", .module = "variants", .kind = PassKind::raster, .first_access = 2, .access_count = 2, .rendering = 0, .pipeline = 2,
-     .first_binding = 2, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 22, .file = "variants.rg"},
+     .first_binding = 2, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 28, .file = "variants.rg"},
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
@@ -78,7 +78,7 @@ constexpr ImageBarrier kImageBarriers[] = {
 constexpr BarrierGroup kGroups[] = {
     {.image_count = 1},  // before fill  variants.rg:10
     {.first_image = 1, .image_count = 1},  // before glow  variants.rg:16
-    {.first_image = 2, .image_count = 2},  // before show  variants.rg:22
+    {.first_image = 2, .image_count = 2},  // before show  variants.rg:28
     {.first_image = 4, .image_count = 1},  // at the end of the frame
 };
 
@@ -164,12 +164,16 @@ constexpr Binding kBindings[] = {
      .layout = Layout::shader_read_only},  // show
 };
 
+constexpr std::string_view kConditions[] = {
+    "bright=on",
+};
+
 constexpr Plan kPlan =
     {.name = "first", .variant = 1, .variant_count = 2, .variant_name = "bright=on", .exprs = kExprs, .extents = kExtents, .resources = kResources,
      .queues = kQueues, .batches = kBatches, .steps = kSteps, .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit,
      .acquires = kAcquires, .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
-     .bindings = kBindings, .estimated_heap_bytes = 65536};
+     .bindings = kBindings, .conditions = kConditions, .estimated_heap_bytes = 65536};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "shaders/second_fill.comp.spv.h"
+#include "shaders/halo.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
 #include "shaders/show.frag.spv.h"
 
@@ -30,14 +31,16 @@ constexpr Extent kExtents[] = {
 
 constexpr Resource kResources[] = {
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 0, .estimated_bytes = 65536, .line = 29, .file = "variants.rg"},
+     .is_surface = true, .import_slot = 0, .estimated_bytes = 65536, .line = 35, .file = "variants.rg"},
     {.name = "base", .format = Format{83}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 31, .file = "variants.rg"},
+     .estimated_alignment = 65536, .line = 37, .file = "variants.rg"},
 };
 
 constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // fill
+    {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // halo
     {.ref = {.resource = resource::base}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // show
     {.ref = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
@@ -46,30 +49,37 @@ constexpr Access kAccesses[] = {
 
 constexpr Pass kPasses[] = {
     {.name = "fill", .module = "variants", .kind = PassKind::compute, .access_count = 1, .pipeline = 0, .binding_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 32, .file = "variants.rg"},
-    {.name = "show", .module = "variants", .kind = PassKind::raster, .first_access = 1, .access_count = 2, .rendering = 0, .pipeline = 1,
-     .first_binding = 1, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 37, .file = "variants.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 38, .file = "variants.rg"},
+    {.name = "halo", .module = "variants", .kind = PassKind::compute, .guard = 1, .first_access = 1, .access_count = 1, .pipeline = 1,
+     .first_binding = 1, .binding_count = 1, .work = {.kind = WorkKind::dispatch, .x = 4, .y = 5, .z = 2}, .line = 44, .file = "variants.rg"},
+    {.name = "show", .module = "variants", .kind = PassKind::raster, .first_access = 2, .access_count = 2, .rendering = 0, .pipeline = 2,
+     .first_binding = 2, .binding_count = 1, .work = {.kind = WorkKind::draw, .x = 6}, .line = 50, .file = "variants.rg"},
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> fill
+    // fill -> halo
+    {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_read | access::shader_storage_write, .old_layout = Layout::general, .new_layout = Layout::general},
     {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::copy,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> show
     {.image = {.resource = resource::base}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // fill -> show
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // halo -> show
     {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::copy, .dst_accesses = access::transfer_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::transfer_src},  // show -> frame end
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {.image_count = 1},  // before fill  variants.rg:32
-    {.first_image = 1, .image_count = 2},  // before show  variants.rg:37
-    {.first_image = 3, .image_count = 1},  // at the end of the frame
+    {.image_count = 1},  // before fill  variants.rg:38
+    {.first_image = 1, .image_count = 1},  // before halo  variants.rg:44
+    {.first_image = 2, .image_count = 2},  // before show  variants.rg:50
+    {.first_image = 4, .image_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -90,11 +100,11 @@ constexpr Acquire kAcquires[] = {
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::base, .stages = stage::fragment_shader, .point = 2},
+    {.resource = resource::base, .stages = stage::fragment_shader, .point = 3},
 };
 
 constexpr Index kAliasClocks[] = {
-    0, 3,
+    0, 4,
 };
 
 constexpr Queue kQueues[] = {
@@ -105,12 +115,14 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
     {.kind = StepKind::pass, .index = pass::fill},
     {.kind = StepKind::barriers, .index = 1},
-    {.kind = StepKind::pass, .index = pass::show},
+    {.kind = StepKind::pass, .index = pass::halo},
     {.kind = StepKind::barriers, .index = 2},
+    {.kind = StepKind::pass, .index = pass::show},
+    {.kind = StepKind::barriers, .index = 3},
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 5},
+    {.step_count = 7},
 };
 
 constexpr Attachment kAttachments[] = {
@@ -124,12 +136,13 @@ constexpr Rendering kRenderings[] = {
 
 constexpr ShaderModule kShaders[] = {
     {.name = "fill.comp", .stage = ShaderStage::compute, .words = variants::spirv::second_fill_comp},
+    {.name = "halo.comp", .stage = ShaderStage::compute, .words = variants::spirv::halo_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = variants::spirv::rgc_fullscreen_vert},
     {.name = "show.frag", .stage = ShaderStage::fragment, .words = variants::spirv::show_frag},
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2,
+    0, 1, 2, 3,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -138,22 +151,37 @@ constexpr ColorBlend kBlends[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "fill", .pass = pass::fill, .shader_count = 1},
-    {.name = "show", .pass = pass::show, .first_shader = 1, .shader_count = 2, .blend_count = 1},
+    {.name = "halo", .pass = pass::halo, .first_shader = 1, .shader_count = 1},
+    {.name = "show", .pass = pass::show, .first_shader = 2, .shader_count = 2, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
     {.type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
      .layout = Layout::general},  // fill
+    {.type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // halo
     {.type = DescriptorType::sampled_image, .stages = 16, .ref = {.resource = resource::base}, .range = {.aspects = aspect_color},
      .layout = Layout::shader_read_only},  // show
 };
 
+constexpr Feature kFeatures[] = {
+    {.name = "bright"},
+};
+
+constexpr FeatureCondition kFeatureConditions[] = {
+    {.values = 2},
+};
+
+constexpr std::string_view kConditions[] = {
+    "bright=on",
+};
+
 constexpr Plan kPlan =
-    {.name = "second", .variant_name = "bright=off", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues,
-     .batches = kBatches, .steps = kSteps, .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
-     .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
-     .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
-     .bindings = kBindings, .estimated_heap_bytes = 65536};
+    {.name = "second", .exprs = kExprs, .extents = kExtents, .resources = kResources, .queues = kQueues, .batches = kBatches, .steps = kSteps,
+     .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires, .releases = kReleases,
+     .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings, .attachments = kAttachments,
+     .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends, .bindings = kBindings,
+     .features = kFeatures, .conditions = kConditions, .feature_conditions = kFeatureConditions, .estimated_heap_bytes = 65536};
 
 }  // namespace
 
@@ -172,19 +200,12 @@ rg::Result<Second> Second::create(rg::Device& device, const Extents& extents, rg
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Second(plan(), std::move(*instance), options);
+  return Second(std::move(*instance));
 }
 
-rg::Result<Second> Second::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
-  auto instance = succeed(current, plan(), options);
-  if (!instance) return instance.error();
-  return Second(plan(), std::move(*instance), options);
-}
+rg::Status Second::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
 
-rg::Status Second::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
-rg::Status Second::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
-
-rg::Status Second::submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder) {
+rg::Status Second::submit(const Imports& imports, const Features& features, const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
   inputs.callbacks = callbacks;
   inputs.user = recorder;
@@ -192,7 +213,11 @@ rg::Status Second::submit(const Imports& imports, const rg::RecordFunction* call
       {.image = imports.backbuffer.value},
   };
   inputs.imports = import_rows;
-  return execute_inputs(inputs);
+  const uint32_t feature_rows[] = {
+      static_cast<uint32_t>(features.bright),
+  };
+  inputs.features = feature_rows;
+  return instance_.execute(inputs);
 }
 
 }  // namespace variants::second_graph
