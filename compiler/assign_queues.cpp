@@ -176,12 +176,14 @@ class Assigner {
     keep_renderings_together();
     group_neighbours();
     QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort);
-    const LayoutGuard guard(frame_, one_queue_);
-    for (bool changed = guard.enforce(choice.queue_of, problem_.nodes); changed;) changed = guard.enforce(choice.queue_of, problem_.nodes);
+    if (problem_.queues > 1) {
+      const LayoutGuard guard(frame_, one_queue_);
+      for (bool changed = guard.enforce(choice.queue_of, problem_.nodes); changed;) changed = guard.enforce(choice.queue_of, problem_.nodes);
+      plan_.contested = guard.contested(choice.queue_of);
+    }
     plan_.timeline = simulate(problem_, choice.queue_of);
     plan_.gain = choice.gain, plan_.gain.end = plan_.timeline.end;
     plan_.simulations = choice.simulations, plan_.complete = choice.complete;
-    plan_.contested = guard.contested(choice.queue_of);
     explain(choice);
     plan_.queue_of = std::move(choice.queue_of);
     return std::move(plan_);

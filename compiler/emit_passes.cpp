@@ -27,6 +27,7 @@ Access access_row(const PlanParts& parts, const PlanIndices& indices, uint32_t p
   if (!image) row.range = {}, row.bytes = plan_bytes(access.range);
   row.stages = effect.stages(), row.accesses = effect.reads | effect.writes;
   row.writes = effect.writes != 0;
+  if (access.role == dsl::Role::color && !access.clear && !may_discard(parts.options, resource)) row.accesses |= rg::access::color_attachment_read;
   return row;
 }
 
@@ -41,6 +42,23 @@ Index engine_set_of(const dsl::Program& program, const std::string& bind) {
   const auto found =
       std::find_if(program.engine_sets.begin(), program.engine_sets.end(), [&](const dsl::EngineSet& set) { return set.name == bind; });
   return found == program.engine_sets.end() ? kNone : static_cast<Index>(found - program.engine_sets.begin());
+}
+
+// A rendering of several passes stores what some of them wrote, also where the pass at hand only reads it.
+void add_stores(const Schedule& schedule, size_t position, PlanData& plan, const Pass& row) {
+  const auto shares = [&](size_t other) { return other < schedule.order.size() && schedule.one_rendering(schedule.order[position], schedule.order[other]); };
+  if (row.rendering == kNone || (!shares(position + 1) && (position == 0 || !shares(position - 1)))) return;
+  const Rendering& rendering = plan.renderings[row.rendering];
+  const auto add = [&](const Attachment& attachment, Accesses reads, Accesses writes) {
+    for (Index a = row.first_access; a < row.first_access + row.access_count; ++a) {
+      Access& access = plan.accesses[a];
+      if (attachment.store != StoreOp::none && access.ref == attachment.ref && (access.accesses & (reads | writes))) access.accesses |= writes;
+    }
+  };
+  for (Index i = 0; i < rendering.color_count; ++i)
+    add(plan.attachments[rendering.first_color + i], access::color_attachment_read, access::color_attachment_write);
+  for (const Index i : {rendering.depth, rendering.stencil})
+    if (i != kNone) add(plan.attachments[i], access::depth_stencil_attachment_read, access::depth_stencil_attachment_write);
 }
 
 void emit_pass(const PlanParts& parts, const PlanIndices& indices, size_t position, Index host_slot, Expressions& exprs, PlanData& plan) {
@@ -58,6 +76,7 @@ void emit_pass(const PlanParts& parts, const PlanIndices& indices, size_t positi
   row.first_mip_limit = static_cast<Index>(plan.mip_limits.size()), row.mip_limit_count = static_cast<Index>(from.mip_limits.size());
   for (const dsl::MipLimit& limit : from.mip_limits) plan.mip_limits.push_back({indices.resource[limit.image.value], limit.mip});
   emit_rendering(parts, indices, position, exprs, plan, row);
+  add_stores(parts.schedule, position, plan, row);
   emit_work(parts, indices, pass, exprs, plan, row);
   plan.passes.push_back(row);
 }

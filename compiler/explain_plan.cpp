@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "runtime/alias.h"
 
 namespace rg::compiler {
@@ -62,27 +65,69 @@ void explain_passes(const PlanParts& parts, const Graph& graph, Decisions& out) 
   }
 }
 
-// Who had the bytes of a transient before it, and who gets them.
-std::string neighbours_text(const PlanData& plan, const std::vector<alias::GroupInterval>& intervals, Index r) {
-  const Resource& row = plan.resources[r];
-  Index before = kNone, after = kNone;
-  for (Index other = 0; other < plan.resources.size(); ++other) {
-    const Resource& o = plan.resources[other];
-    if (other == r || o.lifetime != Lifetime::transient || !intervals[other].used()) continue;
-    if (o.estimated_offset >= row.estimated_offset + row.estimated_bytes || row.estimated_offset >= o.estimated_offset + o.estimated_bytes) continue;
-    if (intervals[other].end < intervals[r].begin && (before == kNone || intervals[other].end > intervals[before].end)) before = other;
-    if (intervals[other].begin > intervals[r].end && (after == kNone || intervals[other].begin < intervals[after].begin)) after = other;
+// Who had which bytes last, while transients come in the order they are acquired.
+class Owners {
+ public:
+  // The owner that was last, of those whose bytes these are; they are the newcomer's from now on.
+  Index take(Index owner, uint64_t begin, uint64_t end, const std::vector<alias::GroupInterval>& intervals, bool forward) {
+    split(begin), split(end);
+    Index last = kNone;
+    for (auto at = parts_.lower_bound(begin); at != parts_.end() && at->first < end; at = parts_.erase(at)) {
+      const Index other = at->second.owner;
+      const auto later = [&] { return forward ? intervals[other].end > intervals[last].end : intervals[other].begin < intervals[last].begin; };
+      if (last == kNone || later()) last = other;
+    }
+    parts_[begin] = {end, owner};
+    return last;
   }
+
+ private:
+  struct Part {
+    uint64_t end = 0;
+    Index owner = kNone;
+  };
+  void split(uint64_t at) {
+    auto part = parts_.upper_bound(at);
+    if (part == parts_.begin() || (--part)->first == at || part->second.end <= at) return;
+    parts_[at] = part->second;
+    part->second.end = at;
+  }
+  std::map<uint64_t, Part> parts_;  // by first byte
+};
+
+struct Neighbours {
+  std::vector<Index> before, after;  // by plan resource: who had the bytes of a transient before it, and who gets them
+};
+// O(transients log).
+Neighbours find_neighbours(const PlanData& plan, const std::vector<alias::GroupInterval>& intervals) {
+  std::vector<Index> order;
+  for (Index r = 0; r < plan.resources.size(); ++r)
+    if (plan.resources[r].lifetime == Lifetime::transient && intervals[r].used()) order.push_back(r);
+  Neighbours result{std::vector<Index>(plan.resources.size(), kNone), std::vector<Index>(plan.resources.size(), kNone)};
+  const auto pass = [&](std::vector<Index>& found, bool forward) {
+    Owners owners;
+    for (const Index r : order)
+      found[r] = owners.take(r, plan.resources[r].estimated_offset, plan.resources[r].estimated_offset + plan.resources[r].estimated_bytes, intervals,
+                             forward);
+  };
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return intervals[a].begin < intervals[b].begin; });
+  pass(result.before, true);
+  std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) { return intervals[a].end > intervals[b].end; });
+  pass(result.after, false);
+  return result;
+}
+
+std::string neighbours_text(const PlanData& plan, Index before, Index after, Index r) {
   if (before == kNone && after == kNone) return "; nobody else uses these bytes";
   std::string text;
   if (before != kNone) text += fmt::format("; takes bytes over from `{}`", plan.resources[before].name);
   if (after != kNone) text += fmt::format("; hands bytes on to `{}`", plan.resources[after].name);
-  return text + fmt::format("; with `no alias` it would keep its {} bytes to itself", row.estimated_bytes);
+  return text + fmt::format("; with `no alias` it would keep its {} bytes to itself", plan.resources[r].estimated_bytes);
 }
 
 void explain_memory(const PlanData& plan, Decisions& out) {
-  constexpr size_t kMostCompared = 2000;  // transients, each with all others
   const std::vector<alias::GroupInterval> intervals = alias::group_intervals(plan.view());
+  const Neighbours neighbours = find_neighbours(plan, intervals);
   for (Index r = 0; r < plan.resources.size(); ++r) {
     const Resource& resource = plan.resources[r];
     if (resource.concurrent)
@@ -92,8 +137,8 @@ void explain_memory(const PlanData& plan, Decisions& out) {
                                    intervals[r].begin, intervals[r].end + 1);
     if (resource.no_alias)
       text += "; its bytes are its own, because it says `no alias`, aliasing is off, or several queues use it first";
-    else if (plan.acquires.size() <= kMostCompared)
-      text += neighbours_text(plan, intervals, r);
+    else
+      text += neighbours_text(plan, neighbours.before[r], neighbours.after[r], r);
     out.push_back({std::string(resource.name), "placed", std::move(text)});
   }
 }

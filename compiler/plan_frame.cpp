@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
+#include <ctime>
 
 #include "compiler/alias_clocks.h"
 #include "compiler/assign_queues.h"
@@ -23,12 +23,12 @@ namespace {
 
 class Stopwatch {
  public:
-  // Runs `phase` and notes how long it took.
+  // Runs `phase` and notes how much processor time it took, which others on the machine do not change.
   template <class Phase>
   auto time(const char* name, Phase phase) {
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     auto result = phase();
-    phases.emplace_back(name, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    phases.emplace_back(name, 1000.0 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     return result;
   }
   std::vector<std::pair<std::string, double>> phases;
@@ -65,8 +65,8 @@ Overlap overlap_of(const QueuePlan& plan, const Schedule& one_queue, const std::
   return overlap;
 }
 
-// Pairs of which one comes before the other over `edges`, which are sorted by their later node; a node stands for `size` of them. O(edges * nodes /
-// 64).
+// Pairs of which one comes before the other over `edges`, which are sorted by their later node; a node stands for `size` of them, none given: one.
+// O(edges * nodes / 64).
 uint64_t weigh_pairs(size_t nodes, const std::vector<std::pair<uint32_t, uint32_t>>& edges, const std::vector<uint64_t>& size) {
   const size_t words = (nodes + 63) / 64;
   std::vector<uint64_t> before(nodes * words);
@@ -76,6 +76,8 @@ uint64_t weigh_pairs(size_t nodes, const std::vector<std::pair<uint32_t, uint32_
   }
   uint64_t pairs = 0;
   for (size_t node = 0; node < nodes; ++node)
+    for (size_t w = 0; w < words && size.empty(); ++w) pairs += static_cast<uint64_t>(std::popcount(before[node * words + w]));
+  for (size_t node = 0; node < nodes && !size.empty(); ++node)
     for (size_t w = 0; w < words; ++w)
       for (uint64_t word = before[node * words + w]; word; word &= word - 1)
         pairs += size[node] * size[w * 64 + static_cast<size_t>(std::countr_zero(word))];
@@ -92,7 +94,14 @@ OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& o
   for (const Dependency& d : graph.dependencies)
     if (d.kind != DependencyKind::order && !schedule.one_rendering(d.before, d.after)) needed.emplace_back(node_of[d.before], node_of[d.after]);
   std::sort(needed.begin(), needed.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  facts.needed_pairs = weigh_pairs(nodes, needed, std::vector<uint64_t>(nodes, 1));
+  facts.needed_pairs = weigh_pairs(nodes, needed, {});
+  std::vector<uint64_t> size(schedule.segments);
+  for (const uint32_t pass : schedule.order) ++size[schedule.segment_of[pass]];
+  if (schedule.batches == 1) {  // all but those of one segment
+    facts.ordered_pairs = nodes * (nodes - 1) / 2;
+    for (const uint64_t passes : size) facts.ordered_pairs -= passes * (passes - 1) / 2;
+    return facts;
+  }
   // On the GPU: segments of a queue one after the other, batches after those they wait for.
   std::vector<std::pair<uint32_t, uint32_t>> steps;
   for (uint32_t s = 0; s < schedule.segments; ++s) {
@@ -105,8 +114,6 @@ OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& o
     for (const BatchWait& wait : sync.batches[schedule.batch_of[s]].waits)
       if (wait.batch != kNone) steps.emplace_back(schedule.closing_slot(wait.batch) - wait.batch - 1, s);
   }
-  std::vector<uint64_t> size(schedule.segments);
-  for (const uint32_t pass : schedule.order) ++size[schedule.segment_of[pass]];
   facts.ordered_pairs = weigh_pairs(schedule.segments, steps, size);
   return facts;
 }

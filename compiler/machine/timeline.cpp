@@ -135,7 +135,10 @@ struct Unroller {
            (attachment.load == LoadOp::clear || attachment.load == LoadOp::dont_care || attachment.store != StoreOp::none);
   }
 
-  static bool destroys(const Attachment& attachment) { return attachment.load != LoadOp::load || attachment.store == StoreOp::dont_care; }
+  // What an earlier pass of the rendering found, its load operation has decided.
+  bool destroys(const Attachment& attachment) const {
+    return (first_in_rendering && attachment.load != LoadOp::load) || attachment.store == StoreOp::dont_care;
+  }
 
   void add_access(const Pass& pass, Index index, uint32_t number) {
     const uint32_t program_pass = in.program_pass[index];

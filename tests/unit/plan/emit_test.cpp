@@ -9,7 +9,8 @@ TEST(Emit, LoadsAndStoresFollowWhatIsThereAndWhatIsNeeded) {
       "image hdr : rgba16f view\n image depth : d32f view\n"
       "pass first : raster { color hdr clear 0.5  depth depth clear 0.0 }\n"
       "pass second : raster { color hdr  depth depth }\n"
-      "pass show : raster { read hdr as sampled in fragment  color backbuffer covers }\n");
+      "pass show : raster { read hdr as sampled in fragment  color backbuffer covers }\n",
+      {.no_merge = {"second"}});
   const Attachment &first = attachment_of(frame.plan, "first", "hdr"), &second_depth = attachment_of(frame.plan, "second", "depth");
   EXPECT_EQ(first.load, LoadOp::clear);
   EXPECT_EQ(first.store, StoreOp::store);

@@ -25,7 +25,7 @@ TEST(Renderings, EqualAttachmentsAreOneRendering) {
   const FramePlan plan = plan_of(world(kSame));
   EXPECT_TRUE(merged(plan));
   EXPECT_EQ(plan.plan.renderings.size(), 2u);
-  EXPECT_EQ(order_text(plan.plan), "| world props | light |");
+  EXPECT_EQ(order_text(plan.plan), "| world props | light | ");
   const Attachment& albedo = attachment_of(plan.plan, "props", "albedo");
   EXPECT_EQ(albedo.load, LoadOp::clear);
   EXPECT_EQ(albedo.store, StoreOp::store);
@@ -82,7 +82,7 @@ TEST(Renderings, NoneBeginsWhereItsFirstPassIsSkipped) {
 TEST(Renderings, SwitchesKeepThemApart) {
   EXPECT_FALSE(merged(plan_of(world(kSame), {.merge = false})));
   EXPECT_FALSE(merged(plan_of(world(kSame), {.no_merge = {"props"}})));
-  EXPECT_EQ(order_text(plan_of(world(kSame), {.no_merge = {"props"}}).plan), "| world | props | light |");
+  EXPECT_EQ(order_text(plan_of(world(kSame), {.no_merge = {"props"}}).plan), "| world | props | light | ");
 }
 
 // Each light needs a shadow map of its own: drawn together all would be live at once.

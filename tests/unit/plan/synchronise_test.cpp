@@ -52,7 +52,7 @@ TEST(Synchronise, WriteAfterReadOfABufferIsExecutionOnly) {
 TEST(Synchronise, WriteAfterWriteKeepsTheColourAndOrdersBoth) {
   EXPECT_EQ(
       barriers(std::string("image hdr : rgba16f view\n pass first : raster { color hdr clear 0 }\n pass second : raster { color hdr }\n") + kShow,
-               "hdr"),
+               "hdr", {.no_merge = {"second"}}),
       "hdr fragment_shader/none -> color_attachment_output/color_attachment_write  undefined -> color_attachment\n"
       "[first]\n"
       "hdr color_attachment_output/color_attachment_write -> color_attachment_output/color_attachment_read|color_attachment_write"

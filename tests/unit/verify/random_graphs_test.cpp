@@ -82,7 +82,9 @@ TEST(RandomGraphs, RenderingsOfSeveralPassesAreProved) {
     VerifyOptions options;
     options.irredundancy = seed % 2 == 0;
     ASSERT_EQ(findings_of(planned, options), "") << "seed " << seed;
-    if (seed % 8 == 0) ASSERT_FALSE(misbehaves(planned, planned.frame.plan.view())) << "seed " << seed;
+    if (seed % 8 == 0) {
+      ASSERT_FALSE(misbehaves(planned, planned.frame.plan.view())) << "seed " << seed;
+    }
     for (const compiler::Decision& decision : planned.frame.decisions) merged += decision.what == "merged";
   }
   EXPECT_GT(merged, 100u);
