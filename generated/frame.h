@@ -392,19 +392,19 @@ struct Conditions {
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:48
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:73
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:104
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:123
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:209
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:224
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:258
+struct TransparentPass : rg::RasterRecording {  // passes.rg:265
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:279
+struct HologramPass : rg::RasterRecording {  // passes.rg:282
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -484,6 +484,68 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 54, .group = 28, .barriers = 2},  // bloom_up_4
     {.position = 55, .group = 29, .barriers = 2},  // bloom_up_5
     {.position = 56, .group = 30, .barriers = 4},  // tonemap
+};
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {},  // mesh_cull_clear
+    {.instructions = 142, .alu = 29, .loads = 7, .stores = 4, .atomics = 3, .branches = 10, .live_scalars = 39},  // mesh_cull
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
+    {.instructions = 110, .alu = 33, .loads = 3, .stores = 1, .branches = 7, .live_scalars = 51},  // lamp_cull
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // depth_world
+    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // sun_shadow_props
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_0
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_1
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_2
+    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // depth_props
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_3
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_4
+    {.instructions = 65, .alu = 12, .samples = 1, .stores = 1, .branches = 4, .live_scalars = 14},  // depth_range_first
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_5
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_6
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_1
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_7
+    // froxel_fog_clusters_cull
+    {.instructions = 305, .alu = 87, .loads = 11, .stores = 2, .atomics = 2, .branches = 18, .shared_bytes = 68, .live_scalars = 76},
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_2
+    {.instructions = 174, .alu = 58, .samples = 1, .loads = 14, .stores = 1, .branches = 4, .live_scalars = 45},  // froxel_fog_chain_inject
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_3
+    {.instructions = 1374, .alu = 512, .samples = 12, .loads = 39, .stores = 3, .branches = 82, .live_scalars = 82},  // froxel_fog_chain_light
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_4
+    {.instructions = 162, .alu = 54, .samples = 2, .loads = 5, .stores = 2, .branches = 6, .live_scalars = 29},  // froxel_fog_chain_integrate
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_5
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_6
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_7
+    {},  // zbin_build_clear
+    {},  // light_occlusion_clear
+    {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
+    {.instructions = 55, .alu = 11, .loads = 3, .atomics = 2, .branches = 4, .live_scalars = 34},  // zbin_build
+    {.instructions = 188, .alu = 61, .samples = 1, .loads = 7, .atomics = 1, .branches = 12, .live_scalars = 36},  // light_occlusion
+    {.instructions = 167, .alu = 47, .loads = 9, .branches = 7, .live_scalars = 41},  // gbuffer_props
+    {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
+    // light_cull
+    {.instructions = 421, .alu = 161, .samples = 1, .loads = 9, .stores = 2, .atomics = 2, .branches = 25, .shared_bytes = 128, .live_scalars = 65},
+    // tile_cull
+    {.instructions = 417, .alu = 137, .samples = 1, .loads = 12, .stores = 5, .atomics = 4, .branches = 25, .shared_bytes = 76, .live_scalars = 60},
+    {.instructions = 198, .alu = 86, .samples = 3, .loads = 8, .stores = 2, .branches = 8, .live_scalars = 39},  // ambient_occlusion
+    {.instructions = 2661, .alu = 1220, .samples = 22, .loads = 57, .stores = 2, .branches = 143, .live_scalars = 119},  // deferred_light
+    {.instructions = 2115, .alu = 1066, .samples = 14, .loads = 30, .branches = 106, .live_scalars = 108},  // transparent
+    {},  // hologram
+    {.instructions = 217, .alu = 75, .samples = 6, .loads = 7, .stores = 1, .branches = 8, .live_scalars = 34},  // resolve_temporal
+    {.instructions = 69, .alu = 23, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 19},  // bloom_first
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_1
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_2
+    {.instructions = 631, .alu = 224, .samples = 12, .loads = 27, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
+    {},  // luminance_clear
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_3
+    {.instructions = 58, .alu = 14, .samples = 1, .atomics = 2, .branches = 4, .shared_bytes = 512, .live_scalars = 6},  // luminance
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_4
+    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_5
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_1
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_2
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_3
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_4
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_5
+    {.instructions = 76, .alu = 29, .samples = 3, .loads = 4, .branches = 3, .live_scalars = 11},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 256, .first = 17, .last = 38},  // scene_lights
@@ -665,9 +727,9 @@ class Frame {
     return submit(imports, params, conditions, callbacks, &recorder);
   }
 
-  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:23
+  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:50
   rg::Result<std::span<const uint32_t>> cull_counts();
-  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:139
+  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:156
   rg::Result<std::span<const uint32_t>> tile_features();
 
   rg::GraphInstance& instance() { return instance_; }

@@ -7,6 +7,7 @@
 #include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/check_macro.h"
+#include "dsl/layout.h"
 
 namespace rg::compiler {
 namespace {

@@ -34,6 +34,10 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
     {.position = 1, .group = 2, .barriers = 2},  // show
 };
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
+};
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
     {.bytes = 65536, .transient = true, .last = 1},  // base
@@ -95,6 +99,11 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 1, .group = 2, .barriers = 1},  // glow
     {.position = 2, .group = 3, .barriers = 2},  // show
 };
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 12, .alu = 2, .loads = 1, .stores = 1, .live_scalars = 6},  // glow
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
+};
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
     {.bytes = 65536, .transient = true, .last = 2},  // base
@@ -155,6 +164,10 @@ inline constexpr rg::Figures kFigures =
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
     {.position = 1, .group = 2, .barriers = 2},  // show
+};
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
