@@ -369,7 +369,10 @@ std::vector<Contributor> between(const Question& q, const FramePlan& frame, cons
 Finding overlaps(const Question& q) {
   const std::string on = q.assertion.fact.substr(std::string("overlaps").size());
   return every_pair(
-      q, find_passes, on.empty() ? "separated by a barrier" : "separated by a barrier, or on other queues",
+      q, find_passes,
+      on.empty()             ? "separated by a barrier"
+      : on == " on one_queue" ? "separated by a barrier, or on two queues"
+                              : "separated by a barrier, or on one queue",
       [&](const PlanFigures& figures, uint32_t a, uint32_t b) {
         const bool one_queue = figures.passes[a].queue == figures.passes[b].queue;
         return overlap(figures.passes[a], figures.passes[b]) && (on.empty() || one_queue == (on == " on one_queue"));

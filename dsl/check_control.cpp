@@ -183,7 +183,9 @@ bool direction_fits(Walker at, const ast::Use& node, size_t i, const ast::Parame
 
 std::optional<std::vector<Binding>> bind_arguments(Walker at, const ast::Use& node, const ast::GraphDeclaration& technique, uint32_t module) {
   if (node.arguments.size() != technique.parameters.size()) {
-    at.checker.report(DiagnosticKind::WrongArgumentCount, node.span, {spelled(node.technique), std::to_string(node.arguments.size()), counted(technique.parameters.size(), "argument")})
+    at.checker
+        .report(DiagnosticKind::WrongArgumentCount, node.span,
+                {spelled(node.technique), std::to_string(node.arguments.size()), counted(technique.parameters.size(), "argument")})
         .note(DiagnosticKind::DeclaredHere, technique.name.span, {std::string(technique.name.text)});
     return std::nullopt;
   }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "runtime/typed.h"
@@ -72,16 +71,7 @@ inline constexpr int32_t DEBUG_FORWARD = 14;
 inline constexpr int32_t DEBUG_FOG = 15;
 inline constexpr int32_t DEBUG_THROUGH = 16;
 inline constexpr int32_t DEBUG_FEATURES = 17;
-inline constexpr int32_t DEBUG_KERNELS = 18;
-inline constexpr int32_t DEBUG_COUNT = 19;
-
-namespace spectrum {
-// passes/lighting/lighting.rg:11
-struct light_features {
-  static constexpr std::string_view features[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};  // by bit of a mask
-  static constexpr uint32_t kernels[] = {0x1, 0x16, 0xc1, 0x9f, 0x1a1, 0xb7, 0x1bf, 0x1ff};  // the masks they serve, in the order in which they are tried
-};
-}  // namespace spectrum
+inline constexpr int32_t DEBUG_COUNT = 18;
 
 struct View {  // passes/view/view.rg:6
   rg::mat4 world_to_view = {};
@@ -356,7 +346,7 @@ static_assert(offsetof(Fog, jitter) == 80);
 static_assert(offsetof(Fog, spare) == 92);
 static_assert(offsetof(Fog, count) == 96);
 
-struct Exposure {  // passes/post/post.rg:9
+struct Exposure {  // passes/post/post.rg:6
   float scale = 0;
   float log_luminance = 0;
   float target = 0;
@@ -385,14 +375,14 @@ struct Imports {
   rg::Required<rg::ImportedBuffer> scene_prop_indices;  // passes/scene/scene.rg:111
   rg::Required<rg::ImportedImage> scene_albedo_maps;  // passes/scene/scene.rg:112
   rg::Required<rg::ImportedImage> scene_surface_maps;  // passes/scene/scene.rg:113
-  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:20
+  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:18
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View camera = {};  // passes.rg:20
-  Fog fog = {};  // passes.rg:20
-  LampViews lamps = {};  // passes.rg:20
+  View camera = {};  // passes.rg:18
+  Fog fog = {};  // passes.rg:18
+  LampViews lamps = {};  // passes.rg:18
 };
 
 // Latched when the frame is recorded.
@@ -400,26 +390,21 @@ struct Conditions {
   bool lamps_moved = {};
 };
 
-// Which variants of shaders this frame runs, and which passes.
-struct Features {
-  bool holograms = false;  // passes.rg:18
-};
-
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:50
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:73
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:106
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:123
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:212
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:224
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:262
+struct TransparentPass : rg::RasterRecording {  // passes.rg:265
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:284
+struct HologramPass : rg::RasterRecording {  // passes.rg:282
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -437,36 +422,36 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 66, .shaders = 44, .pipelines = 61, .barrier_groups = 31, .image_barriers = 79, .buffer_barriers = 29, .batches = 1,
-     .heap_bytes = 19117312, .unaliased_bytes = 24802304, .lower_bound_bytes = 19116288};
+    {.passes = 57, .shaders = 35, .pipelines = 52, .barrier_groups = 31, .image_barriers = 77, .buffer_barriers = 27, .batches = 1,
+     .heap_bytes = 19021056, .unaliased_bytes = 24707072, .lower_bound_bytes = 19021056};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1},  // mesh_cull_clear
     {.position = 1, .group = 2, .barriers = 2},  // mesh_cull
-    {.position = 2, .group = 2},  // lamp_cull
-    {.position = 3, .group = 3, .barriers = 6},  // sun_shadow_world
-    {.position = 4, .group = 3},  // lamp_shadow_world_0
-    {.position = 5, .group = 3},  // lamp_shadow_world_1
-    {.position = 6, .group = 3},  // depth_world
-    {.position = 7, .group = 4, .barriers = 4},  // sun_shadow_props
+    {.position = 2, .group = 3, .barriers = 5},  // sun_shadow_world
+    {.position = 3, .group = 3},  // lamp_cull
+    {.position = 4, .group = 3},  // depth_world
+    {.position = 5, .group = 4, .barriers = 4},  // sun_shadow_props
+    {.position = 6, .group = 4},  // lamp_shadow_world_0
+    {.position = 7, .group = 4},  // lamp_shadow_world_1
     {.position = 8, .group = 4},  // lamp_shadow_world_2
-    {.position = 9, .group = 4},  // lamp_shadow_world_3
-    {.position = 10, .group = 4},  // depth_props
-    {.position = 11, .group = 5, .barriers = 4},  // lamp_shadow_world_4
-    {.position = 12, .group = 5},  // lamp_shadow_world_5
-    {.position = 13, .group = 5},  // depth_range_first
-    {.position = 14, .group = 6, .barriers = 3},  // lamp_shadow_world_6
-    {.position = 15, .group = 6},  // lamp_shadow_world_7
-    {.position = 16, .group = 6},  // froxel_fog_clusters_cull
-    {.position = 17, .group = 6},  // depth_range_down_1
-    {.position = 18, .group = 7, .barriers = 3},  // froxel_fog_chain_inject
-    {.position = 19, .group = 7},  // depth_range_down_2
-    {.position = 20, .group = 8, .barriers = 9},  // froxel_fog_chain_light
-    {.position = 21, .group = 8},  // depth_range_down_3
-    {.position = 22, .group = 9, .barriers = 5},  // froxel_fog_chain_integrate
-    {.position = 23, .group = 9},  // depth_range_down_4
-    {.position = 24, .group = 10, .barriers = 1},  // depth_range_down_5
+    {.position = 9, .group = 4},  // depth_props
+    {.position = 10, .group = 5, .barriers = 4},  // lamp_shadow_world_3
+    {.position = 11, .group = 5},  // lamp_shadow_world_4
+    {.position = 12, .group = 5},  // depth_range_first
+    {.position = 13, .group = 6, .barriers = 3},  // lamp_shadow_world_5
+    {.position = 14, .group = 6},  // lamp_shadow_world_6
+    {.position = 15, .group = 6},  // depth_range_down_1
+    {.position = 16, .group = 7, .barriers = 3},  // lamp_shadow_world_7
+    {.position = 17, .group = 7},  // froxel_fog_clusters_cull
+    {.position = 18, .group = 7},  // depth_range_down_2
+    {.position = 19, .group = 8, .barriers = 3},  // froxel_fog_chain_inject
+    {.position = 20, .group = 8},  // depth_range_down_3
+    {.position = 21, .group = 9, .barriers = 9},  // froxel_fog_chain_light
+    {.position = 22, .group = 9},  // depth_range_down_4
+    {.position = 23, .group = 10, .barriers = 5},  // froxel_fog_chain_integrate
+    {.position = 24, .group = 10},  // depth_range_down_5
     {.position = 25, .group = 11, .barriers = 1},  // depth_range_down_6
     {.position = 26, .group = 12, .barriers = 7},  // depth_range_down_7
     {.position = 27, .group = 12},  // zbin_build_clear
@@ -474,119 +459,169 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 29, .group = 12},  // gbuffer_world
     {.position = 30, .group = 13, .barriers = 9},  // zbin_build
     {.position = 31, .group = 13},  // light_occlusion
-    {.position = 32, .group = 13},  // tile_cull
-    {.position = 33, .group = 13},  // gbuffer_props
-    {.position = 34, .group = 13},  // deferred_light_reset
-    {.position = 35, .group = 14, .barriers = 8},  // zbin_pack
-    {.position = 36, .group = 14},  // light_cull
-    {.position = 37, .group = 14},  // ambient_occlusion
-    {.position = 38, .group = 14},  // deferred_light_classify
-    {.position = 39, .group = 15, .barriers = 12},  // deferred_light_0
-    {.position = 40, .group = 15},  // deferred_light_1
-    {.position = 41, .group = 15},  // deferred_light_2
-    {.position = 42, .group = 15},  // deferred_light_3
-    {.position = 43, .group = 15},  // deferred_light_4
-    {.position = 44, .group = 15},  // deferred_light_5
-    {.position = 45, .group = 15},  // deferred_light_6
-    {.position = 46, .group = 15},  // deferred_light_7
-    {.position = 47, .group = 16, .barriers = 2},  // transparent
-    {.position = 48, .group = 17, .barriers = 1},  // hologram
-    {.position = 49, .group = 18, .barriers = 3},  // resolve_temporal
-    {.position = 50, .group = 19, .barriers = 3},  // bloom_first
-    {.position = 51, .group = 20, .barriers = 1},  // bloom_down_1
-    {.position = 52, .group = 21, .barriers = 1},  // bloom_down_2
-    {.position = 53, .group = 22, .barriers = 1},  // bloom_down_3
-    {.position = 54, .group = 23, .barriers = 3},  // debug_view
-    {.position = 55, .group = 23},  // luminance_clear
-    {.position = 56, .group = 23},  // bloom_down_4
-    {.position = 57, .group = 24, .barriers = 2},  // luminance
-    {.position = 58, .group = 24},  // bloom_down_5
-    {.position = 59, .group = 25, .barriers = 3},  // expose
-    {.position = 60, .group = 25},  // bloom_up_1
-    {.position = 61, .group = 26, .barriers = 2},  // bloom_up_2
-    {.position = 62, .group = 27, .barriers = 2},  // bloom_up_3
-    {.position = 63, .group = 28, .barriers = 2},  // bloom_up_4
-    {.position = 64, .group = 29, .barriers = 2},  // bloom_up_5
-    {.position = 65, .group = 30, .barriers = 4},  // tonemap
+    {.position = 32, .group = 13},  // gbuffer_props
+    {.position = 33, .group = 14, .barriers = 5},  // zbin_pack
+    {.position = 34, .group = 14},  // light_cull
+    {.position = 35, .group = 14},  // tile_cull
+    {.position = 36, .group = 14},  // ambient_occlusion
+    {.position = 37, .group = 15, .barriers = 10},  // deferred_light
+    {.position = 38, .group = 16, .barriers = 2},  // transparent
+    {.position = 39, .group = 17, .barriers = 1},  // hologram
+    {.position = 40, .group = 18, .barriers = 3},  // resolve_temporal
+    {.position = 41, .group = 19, .barriers = 3},  // bloom_first
+    {.position = 42, .group = 20, .barriers = 1},  // bloom_down_1
+    {.position = 43, .group = 21, .barriers = 1},  // bloom_down_2
+    {.position = 44, .group = 22, .barriers = 3},  // debug_view
+    {.position = 45, .group = 22},  // luminance_clear
+    {.position = 46, .group = 22},  // bloom_down_3
+    {.position = 47, .group = 23, .barriers = 2},  // luminance
+    {.position = 48, .group = 23},  // bloom_down_4
+    {.position = 49, .group = 24, .barriers = 2},  // expose
+    {.position = 50, .group = 24},  // bloom_down_5
+    {.position = 51, .group = 25, .barriers = 2},  // bloom_up_1
+    {.position = 52, .group = 26, .barriers = 2},  // bloom_up_2
+    {.position = 53, .group = 27, .barriers = 2},  // bloom_up_3
+    {.position = 54, .group = 28, .barriers = 2},  // bloom_up_4
+    {.position = 55, .group = 29, .barriers = 2},  // bloom_up_5
+    {.position = 56, .group = 30, .barriers = 4},  // tonemap
+};
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {},  // mesh_cull_clear
+    {.instructions = 142, .alu = 29, .loads = 7, .stores = 4, .atomics = 3, .branches = 10, .live_scalars = 39},  // mesh_cull
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
+    {.instructions = 110, .alu = 33, .loads = 3, .stores = 1, .branches = 7, .live_scalars = 51},  // lamp_cull
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // depth_world
+    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // sun_shadow_props
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_0
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_1
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_2
+    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // depth_props
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_3
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_4
+    {.instructions = 65, .alu = 12, .samples = 1, .stores = 1, .branches = 4, .live_scalars = 14},  // depth_range_first
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_5
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_6
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_1
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_7
+    // froxel_fog_clusters_cull
+    {.instructions = 305, .alu = 87, .loads = 11, .stores = 2, .atomics = 2, .branches = 18, .shared_bytes = 68, .live_scalars = 76},
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_2
+    {.instructions = 174, .alu = 58, .samples = 1, .loads = 14, .stores = 1, .branches = 4, .live_scalars = 45},  // froxel_fog_chain_inject
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_3
+    {.instructions = 1374, .alu = 512, .samples = 12, .loads = 39, .stores = 3, .branches = 82, .live_scalars = 82},  // froxel_fog_chain_light
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_4
+    {.instructions = 162, .alu = 54, .samples = 2, .loads = 5, .stores = 2, .branches = 6, .live_scalars = 29},  // froxel_fog_chain_integrate
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_5
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_6
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_7
+    {},  // zbin_build_clear
+    {},  // light_occlusion_clear
+    {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
+    {.instructions = 55, .alu = 11, .loads = 3, .atomics = 2, .branches = 4, .live_scalars = 34},  // zbin_build
+    {.instructions = 188, .alu = 61, .samples = 1, .loads = 7, .atomics = 1, .branches = 12, .live_scalars = 36},  // light_occlusion
+    {.instructions = 167, .alu = 47, .loads = 9, .branches = 7, .live_scalars = 41},  // gbuffer_props
+    {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
+    // light_cull
+    {.instructions = 421, .alu = 161, .samples = 1, .loads = 9, .stores = 2, .atomics = 2, .branches = 25, .shared_bytes = 128, .live_scalars = 65},
+    // tile_cull
+    {.instructions = 417, .alu = 137, .samples = 1, .loads = 12, .stores = 5, .atomics = 4, .branches = 25, .shared_bytes = 76, .live_scalars = 60},
+    {.instructions = 198, .alu = 86, .samples = 3, .loads = 8, .stores = 2, .branches = 8, .live_scalars = 39},  // ambient_occlusion
+    {.instructions = 2661, .alu = 1220, .samples = 22, .loads = 57, .stores = 2, .branches = 143, .live_scalars = 119},  // deferred_light
+    {.instructions = 2115, .alu = 1066, .samples = 14, .loads = 30, .branches = 106, .live_scalars = 108},  // transparent
+    {},  // hologram
+    {.instructions = 217, .alu = 75, .samples = 6, .loads = 7, .stores = 1, .branches = 8, .live_scalars = 34},  // resolve_temporal
+    {.instructions = 69, .alu = 23, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 19},  // bloom_first
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_1
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_2
+    {.instructions = 631, .alu = 224, .samples = 12, .loads = 27, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
+    {},  // luminance_clear
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_3
+    {.instructions = 58, .alu = 14, .samples = 1, .atomics = 2, .branches = 4, .shared_bytes = 512, .live_scalars = 6},  // luminance
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_4
+    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
+    {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_5
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_1
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_2
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_3
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_4
+    {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_5
+    {.instructions = 76, .alu = 29, .samples = 3, .loads = 4, .branches = 3, .live_scalars = 11},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 16, .last = 47},  // scene_lights
-    {.bytes = 256, .first = 16, .last = 18},  // scene_fog_volumes
-    {.bytes = 256, .first = 1, .last = 47},  // scene_instances
-    {.bytes = 256, .first = 29, .last = 47},  // scene_materials
-    {.bytes = 256, .first = 3, .last = 47},  // scene_vertices
-    {.bytes = 256, .first = 3, .last = 47},  // scene_indices
-    {.bytes = 256, .first = 7, .last = 33},  // scene_props
-    {.bytes = 256, .first = 7, .last = 33},  // scene_prop_indices
-    {.bytes = 11206656, .first = 18, .last = 47},  // scene_albedo_maps
+    {.bytes = 256, .first = 17, .last = 38},  // scene_lights
+    {.bytes = 256, .first = 17, .last = 19},  // scene_fog_volumes
+    {.bytes = 256, .first = 1, .last = 38},  // scene_instances
+    {.bytes = 256, .first = 29, .last = 38},  // scene_materials
+    {.bytes = 256, .first = 2, .last = 38},  // scene_vertices
+    {.bytes = 256, .first = 2, .last = 38},  // scene_indices
+    {.bytes = 256, .first = 5, .last = 32},  // scene_props
+    {.bytes = 256, .first = 5, .last = 32},  // scene_prop_indices
+    {.bytes = 11206656, .first = 19, .last = 38},  // scene_albedo_maps
     {.bytes = 11206656, .first = 29, .last = 29},  // scene_surface_maps
-    {.bytes = 983040, .first = 65, .last = 65},  // backbuffer
-    {.bytes = 16384, .offset = 16252928, .transient = true, .first = 1, .last = 29},  // world_draws
-    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 3},  // sun_draws
+    {.bytes = 983040, .first = 56, .last = 56},  // backbuffer
+    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 29},  // world_draws
+    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 2},  // sun_draws
     {.bytes = 256, .last = 1},  // cull_counts
-    {.bytes = 9437184, .offset = 983040, .transient = true, .first = 3, .last = 47},  // sun_shadow
-    {.bytes = 131072, .offset = 12926976, .transient = true, .first = 2, .last = 15},  // lamp_draws
-    {.bytes = 2097152, .first = 4, .last = 47},  // lamp_shadow
-    {.bytes = 589824, .offset = 10420224, .transient = true, .first = 22, .last = 54},  // scattered
-    {.bytes = 327680, .offset = 11010048, .transient = true, .first = 22, .last = 54},  // transmittance
-    {.bytes = 147456, .offset = 12779520, .transient = true, .first = 16, .last = 18},  // froxel_fog_cluster_volumes
-    {.bytes = 2359296, .offset = 10420224, .transient = true, .first = 16, .last = 20},  // froxel_fog_cluster_lights
-    {.bytes = 327680, .offset = 13697024, .transient = true, .first = 18, .last = 20},  // froxel_fog_density
-    {.bytes = 589824, .offset = 12779520, .transient = true, .first = 20, .last = 22},  // froxel_fog_inscatter
-    {.bytes = 327680, .offset = 13369344, .transient = true, .first = 20, .last = 22},  // froxel_fog_extinction
-    {.bytes = 2359296, .first = 20, .last = 20},  // froxel_fog_memory
-    {.bytes = 983040, .transient = true, .first = 6, .last = 54},  // depth
-    {.bytes = 65536, .offset = 16842752, .transient = true, .first = 13, .last = 36},  // depth_range
-    {.bytes = 32768, .offset = 16776192, .transient = true, .first = 27, .last = 35},  // zbin_min
-    {.bytes = 32768, .offset = 16808960, .transient = true, .first = 27, .last = 35},  // zbin_max
-    {.bytes = 32768, .offset = 16252928, .transient = true, .first = 35, .last = 54},  // zbins
-    {.bytes = 256, .offset = 16841728, .transient = true, .first = 28, .last = 36},  // lights_seen
-    {.bytes = 230400, .offset = 16285696, .transient = true, .first = 36, .last = 54},  // tile_lights
-    {.bytes = 230400, .offset = 16516096, .transient = true, .first = 36, .last = 54},  // forward_lights
-    {.bytes = 242944, .offset = 18874368, .transient = true, .first = 32, .last = 54},  // tile_records
-    {.bytes = 3840, .first = 32, .last = 54},  // tile_features
-    {.bytes = 65536, .offset = 18677760, .transient = true, .first = 38, .last = 54},  // tile_kernels
-    {.bytes = 983040, .offset = 11337728, .transient = true, .first = 29, .last = 54},  // albedo
-    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 54},  // normal
-    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 54},  // material
-    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 54},  // emissive
-    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 29, .last = 54},  // velocity
-    {.bytes = 131072, .offset = 18743296, .transient = true, .first = 37, .last = 54},  // occlusion
-    {.bytes = 1900544, .offset = 16777216, .transient = true, .first = 39, .last = 57},  // hdr
-    {.bytes = 983040, .offset = 983040, .transient = true, .first = 54, .last = 65},  // debug_image
-    {.bytes = 512, .offset = 1966080, .transient = true, .first = 55, .last = 59},  // histogram
-    {.bytes = 512, .first = 59, .last = 65},  // exposure
-    {.bytes = 3801088, .first = 49, .last = 65},  // color
-    {.bytes = 655360, .offset = 2031616, .transient = true, .first = 50, .last = 65},  // bloom
-    {.bytes = 256, .offset = 16746496, .transient = true, .first = 34, .last = 46},  // deferred_light_arguments
-    {.bytes = 29440, .offset = 16746752, .transient = true, .first = 38, .last = 46},  // deferred_light_tiles
+    {.bytes = 9437184, .transient = true, .first = 2, .last = 38},  // sun_shadow
+    {.bytes = 131072, .offset = 12992512, .transient = true, .first = 3, .last = 16},  // lamp_draws
+    {.bytes = 2097152, .first = 6, .last = 38},  // lamp_shadow
+    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 23, .last = 44},  // scattered
+    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 23, .last = 44},  // transmittance
+    {.bytes = 147456, .offset = 12845056, .transient = true, .first = 17, .last = 19},  // froxel_fog_cluster_volumes
+    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 17, .last = 21},  // froxel_fog_cluster_lights
+    {.bytes = 327680, .offset = 13434880, .transient = true, .first = 19, .last = 21},  // froxel_fog_density
+    {.bytes = 589824, .offset = 12845056, .transient = true, .first = 21, .last = 23},  // froxel_fog_inscatter
+    {.bytes = 327680, .offset = 13762560, .transient = true, .first = 21, .last = 23},  // froxel_fog_extinction
+    {.bytes = 2359296, .first = 21, .last = 21},  // froxel_fog_memory
+    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 4, .last = 44},  // depth
+    {.bytes = 65536, .offset = 10420224, .transient = true, .first = 12, .last = 34},  // depth_range
+    {.bytes = 32768, .offset = 10485760, .transient = true, .first = 27, .last = 33},  // zbin_min
+    {.bytes = 32768, .offset = 10518528, .transient = true, .first = 27, .last = 33},  // zbin_max
+    {.bytes = 32768, .offset = 18988288, .transient = true, .first = 33, .last = 44},  // zbins
+    {.bytes = 256, .offset = 10551296, .transient = true, .first = 28, .last = 34},  // lights_seen
+    {.bytes = 230400, .offset = 18284544, .transient = true, .first = 34, .last = 44},  // tile_lights
+    {.bytes = 230400, .offset = 18514944, .transient = true, .first = 34, .last = 44},  // forward_lights
+    {.bytes = 242944, .offset = 18745344, .transient = true, .first = 35, .last = 44},  // tile_records
+    {.bytes = 3840, .first = 35, .last = 44},  // tile_features
+    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 44},  // albedo
+    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 44},  // normal
+    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 44},  // material
+    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 29, .last = 44},  // emissive
+    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 29, .last = 44},  // velocity
+    {.bytes = 131072, .offset = 18153472, .transient = true, .first = 36, .last = 44},  // occlusion
+    {.bytes = 1900544, .offset = 10420224, .transient = true, .first = 37, .last = 47},  // hdr
+    {.bytes = 983040, .transient = true, .first = 44, .last = 56},  // debug_image
+    {.bytes = 512, .offset = 1638400, .transient = true, .first = 45, .last = 49},  // histogram
+    {.bytes = 512, .first = 49, .last = 56},  // exposure
+    {.bytes = 3801088, .first = 40, .last = 56},  // color
+    {.bytes = 655360, .offset = 983040, .transient = true, .first = 41, .last = 56},  // bloom
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index mesh_cull_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index lamp_cull = 2;
-inline constexpr rg::Index sun_shadow_world = 3;
-inline constexpr rg::Index lamp_shadow_world_0 = 4;
-inline constexpr rg::Index lamp_shadow_world_1 = 5;
-inline constexpr rg::Index depth_world = 6;
-inline constexpr rg::Index sun_shadow_props = 7;
+inline constexpr rg::Index sun_shadow_world = 2;
+inline constexpr rg::Index lamp_cull = 3;
+inline constexpr rg::Index depth_world = 4;
+inline constexpr rg::Index sun_shadow_props = 5;
+inline constexpr rg::Index lamp_shadow_world_0 = 6;
+inline constexpr rg::Index lamp_shadow_world_1 = 7;
 inline constexpr rg::Index lamp_shadow_world_2 = 8;
-inline constexpr rg::Index lamp_shadow_world_3 = 9;
-inline constexpr rg::Index depth_props = 10;
+inline constexpr rg::Index depth_props = 9;
+inline constexpr rg::Index lamp_shadow_world_3 = 10;
 inline constexpr rg::Index lamp_shadow_world_4 = 11;
-inline constexpr rg::Index lamp_shadow_world_5 = 12;
-inline constexpr rg::Index depth_range_first = 13;
+inline constexpr rg::Index depth_range_first = 12;
+inline constexpr rg::Index lamp_shadow_world_5 = 13;
 inline constexpr rg::Index lamp_shadow_world_6 = 14;
-inline constexpr rg::Index lamp_shadow_world_7 = 15;
-inline constexpr rg::Index froxel_fog_clusters_cull = 16;
-inline constexpr rg::Index depth_range_down_1 = 17;
-inline constexpr rg::Index froxel_fog_chain_inject = 18;
-inline constexpr rg::Index depth_range_down_2 = 19;
-inline constexpr rg::Index froxel_fog_chain_light = 20;
-inline constexpr rg::Index depth_range_down_3 = 21;
-inline constexpr rg::Index froxel_fog_chain_integrate = 22;
-inline constexpr rg::Index depth_range_down_4 = 23;
+inline constexpr rg::Index depth_range_down_1 = 15;
+inline constexpr rg::Index lamp_shadow_world_7 = 16;
+inline constexpr rg::Index froxel_fog_clusters_cull = 17;
+inline constexpr rg::Index depth_range_down_2 = 18;
+inline constexpr rg::Index froxel_fog_chain_inject = 19;
+inline constexpr rg::Index depth_range_down_3 = 20;
+inline constexpr rg::Index froxel_fog_chain_light = 21;
+inline constexpr rg::Index depth_range_down_4 = 22;
+inline constexpr rg::Index froxel_fog_chain_integrate = 23;
 inline constexpr rg::Index depth_range_down_5 = 24;
 inline constexpr rg::Index depth_range_down_6 = 25;
 inline constexpr rg::Index depth_range_down_7 = 26;
@@ -595,40 +630,31 @@ inline constexpr rg::Index light_occlusion_clear = 28;
 inline constexpr rg::Index gbuffer_world = 29;
 inline constexpr rg::Index zbin_build = 30;
 inline constexpr rg::Index light_occlusion = 31;
-inline constexpr rg::Index tile_cull = 32;
-inline constexpr rg::Index gbuffer_props = 33;
-inline constexpr rg::Index deferred_light_reset = 34;
-inline constexpr rg::Index zbin_pack = 35;
-inline constexpr rg::Index light_cull = 36;
-inline constexpr rg::Index ambient_occlusion = 37;
-inline constexpr rg::Index deferred_light_classify = 38;
-inline constexpr rg::Index deferred_light_0 = 39;
-inline constexpr rg::Index deferred_light_1 = 40;
-inline constexpr rg::Index deferred_light_2 = 41;
-inline constexpr rg::Index deferred_light_3 = 42;
-inline constexpr rg::Index deferred_light_4 = 43;
-inline constexpr rg::Index deferred_light_5 = 44;
-inline constexpr rg::Index deferred_light_6 = 45;
-inline constexpr rg::Index deferred_light_7 = 46;
-inline constexpr rg::Index transparent = 47;
-inline constexpr rg::Index hologram = 48;
-inline constexpr rg::Index resolve_temporal = 49;
-inline constexpr rg::Index bloom_first = 50;
-inline constexpr rg::Index bloom_down_1 = 51;
-inline constexpr rg::Index bloom_down_2 = 52;
-inline constexpr rg::Index bloom_down_3 = 53;
-inline constexpr rg::Index debug_view = 54;
-inline constexpr rg::Index luminance_clear = 55;
-inline constexpr rg::Index bloom_down_4 = 56;
-inline constexpr rg::Index luminance = 57;
-inline constexpr rg::Index bloom_down_5 = 58;
-inline constexpr rg::Index expose = 59;
-inline constexpr rg::Index bloom_up_1 = 60;
-inline constexpr rg::Index bloom_up_2 = 61;
-inline constexpr rg::Index bloom_up_3 = 62;
-inline constexpr rg::Index bloom_up_4 = 63;
-inline constexpr rg::Index bloom_up_5 = 64;
-inline constexpr rg::Index tonemap = 65;
+inline constexpr rg::Index gbuffer_props = 32;
+inline constexpr rg::Index zbin_pack = 33;
+inline constexpr rg::Index light_cull = 34;
+inline constexpr rg::Index tile_cull = 35;
+inline constexpr rg::Index ambient_occlusion = 36;
+inline constexpr rg::Index deferred_light = 37;
+inline constexpr rg::Index transparent = 38;
+inline constexpr rg::Index hologram = 39;
+inline constexpr rg::Index resolve_temporal = 40;
+inline constexpr rg::Index bloom_first = 41;
+inline constexpr rg::Index bloom_down_1 = 42;
+inline constexpr rg::Index bloom_down_2 = 43;
+inline constexpr rg::Index debug_view = 44;
+inline constexpr rg::Index luminance_clear = 45;
+inline constexpr rg::Index bloom_down_3 = 46;
+inline constexpr rg::Index luminance = 47;
+inline constexpr rg::Index bloom_down_4 = 48;
+inline constexpr rg::Index expose = 49;
+inline constexpr rg::Index bloom_down_5 = 50;
+inline constexpr rg::Index bloom_up_1 = 51;
+inline constexpr rg::Index bloom_up_2 = 52;
+inline constexpr rg::Index bloom_up_3 = 53;
+inline constexpr rg::Index bloom_up_4 = 54;
+inline constexpr rg::Index bloom_up_5 = 55;
+inline constexpr rg::Index tonemap = 56;
 }
 
 // Indices of Plan::resources.
@@ -668,21 +694,18 @@ inline constexpr rg::Index tile_lights = 31;
 inline constexpr rg::Index forward_lights = 32;
 inline constexpr rg::Index tile_records = 33;
 inline constexpr rg::Index tile_features = 34;
-inline constexpr rg::Index tile_kernels = 35;
-inline constexpr rg::Index albedo = 36;
-inline constexpr rg::Index normal = 37;
-inline constexpr rg::Index material = 38;
-inline constexpr rg::Index emissive = 39;
-inline constexpr rg::Index velocity = 40;
-inline constexpr rg::Index occlusion = 41;
-inline constexpr rg::Index hdr = 42;
-inline constexpr rg::Index debug_image = 43;
-inline constexpr rg::Index histogram = 44;
-inline constexpr rg::Index exposure = 45;
-inline constexpr rg::Index color = 46;
-inline constexpr rg::Index bloom = 47;
-inline constexpr rg::Index deferred_light_arguments = 48;
-inline constexpr rg::Index deferred_light_tiles = 49;
+inline constexpr rg::Index albedo = 35;
+inline constexpr rg::Index normal = 36;
+inline constexpr rg::Index material = 37;
+inline constexpr rg::Index emissive = 38;
+inline constexpr rg::Index velocity = 39;
+inline constexpr rg::Index occlusion = 40;
+inline constexpr rg::Index hdr = 41;
+inline constexpr rg::Index debug_image = 42;
+inline constexpr rg::Index histogram = 43;
+inline constexpr rg::Index exposure = 44;
+inline constexpr rg::Index color = 45;
+inline constexpr rg::Index bloom = 46;
 }
 
 class Frame {
@@ -693,7 +716,7 @@ class Frame {
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
-  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features, R& recorder) {
+  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, R& recorder) {
     static constexpr rg::RecordFunction callbacks[] = {
         record<R, SunShadowPropsPass, [](R& r, SunShadowPropsPass& pass) { r.sun_shadow_props(pass); }>,
         record<R, DepthPropsPass, [](R& r, DepthPropsPass& pass) { r.depth_props(pass); }>,
@@ -701,12 +724,12 @@ class Frame {
         record<R, TransparentPass, [](R& r, TransparentPass& pass) { r.transparent(pass); }>,
         record<R, HologramPass, [](R& r, HologramPass& pass) { r.hologram(pass); }>,
     };
-    return submit(imports, params, conditions, features, callbacks, &recorder);
+    return submit(imports, params, conditions, callbacks, &recorder);
   }
 
-  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:25
+  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:50
   rg::Result<std::span<const uint32_t>> cull_counts();
-  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:141
+  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:156
   rg::Result<std::span<const uint32_t>> tile_features();
 
   rg::GraphInstance& instance() { return instance_; }
@@ -717,8 +740,7 @@ class Frame {
     Pass pass{{recording}};
     method(*static_cast<R*>(user), pass);
   }
-  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features,
-                    const rg::RecordFunction* callbacks, void* recorder);
+  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder);
   explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
   rg::GraphInstance instance_;
 };

@@ -129,7 +129,8 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
   const dsl::Access& access = pass.accesses[binding.access];
   const dsl::Resource& resource = graph.resources[access.resource];
   if (binding.kind == BindingKind::storage_buffer)
-    return "layout(" + place + ", " + block_layout(program, resource.element, "std430") + ") " + memory_qualifier(access.mode) + "buffer " + block + " { " + glsl_type(program, resource.element) + " " +
+    return "layout(" + place + ", " + block_layout(program, resource.element, "std430") + ") " +
+           memory_qualifier(access.mode) + "buffer " + block + " { " + glsl_type(program, resource.element) + " " +
            binding.name + "[]; };";
   if (binding.kind == BindingKind::uniform_buffer)
     return "layout(" + place + ", " + block_layout(program, resource.element, "std140") + ") uniform " + block + " { " +

@@ -35,6 +35,10 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // make_waves
     {.position = 1, .group = 2, .barriers = 2},  // show
 };
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 29, .alu = 6, .stores = 1, .branches = 2, .live_scalars = 6},  // make_waves
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
+};
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 1, .last = 1},  // backbuffer
     {.bytes = 65536, .transient = true, .last = 1},  // waves

@@ -128,6 +128,17 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 7, .group = 6, .barriers = 1},  // bloom_down_2
     {.position = 8, .group = 7, .barriers = 2},  // show
 };
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {},  // fill_table
+    {},  // count_clear
+    {.instructions = 47, .alu = 10, .samples = 1, .loads = 5, .branches = 1, .live_scalars = 22},  // meshes
+    {},  // own_pipelines
+    {.instructions = 33, .alu = 5, .samples = 1, .atomics = 1, .branches = 3, .live_scalars = 4},  // count
+    {.instructions = 31, .alu = 7, .samples = 1, .stores = 1, .branches = 2, .live_scalars = 6},  // bloom_first
+    {.instructions = 34, .alu = 7, .samples = 1, .loads = 1, .stores = 1, .branches = 2, .live_scalars = 8},  // bloom_down_1
+    {.instructions = 34, .alu = 7, .samples = 1, .loads = 1, .stores = 1, .branches = 2, .live_scalars = 8},  // bloom_down_2
+    {.instructions = 20, .alu = 7, .samples = 3, .live_scalars = 10},  // show
+};
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 256, .first = 2, .last = 2},  // scene_lights
     {.bytes = 256, .first = 2, .last = 2},  // scene_vertices

@@ -36,6 +36,10 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 1, .group = 2, .barriers = 1},  // dim
     {.position = 2, .group = 3, .barriers = 2},  // show
 };
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
+};
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
     {.bytes = 65536, .transient = true, .last = 2},  // base
@@ -97,6 +101,11 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
     {.position = 1, .group = 2, .barriers = 1},  // glow
     {.position = 2, .group = 3, .barriers = 2},  // show
+};
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 12, .alu = 2, .loads = 1, .stores = 1, .live_scalars = 6},  // glow
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
@@ -164,6 +173,10 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill
     {.position = 1, .group = 2, .barriers = 1},  // halo
     {.position = 2, .group = 3, .barriers = 2},  // show
+};
+inline constexpr rg::ShaderFigures kShaderFigures[] = {
+    {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
