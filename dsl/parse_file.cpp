@@ -104,20 +104,6 @@ StateDeclaration parse_state(Parser& parser) {
   return state;
 }
 
-FeatureTerm parse_feature_term(Parser& parser) {
-  FeatureTerm term;
-  const uint32_t begin = parser.peek().begin;
-  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
-  term.feature = parser.expect_name("a feature");
-  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
-    term.negated ^= parser.is(TokenKind::not_equal);
-    parser.take();
-    term.value = parser.expect_name("a value of the feature");
-  }
-  term.span = parser.since(begin);
-  return term;
-}
-
 // `requires a and b == low`, `excludes c or d`, any number of them
 void parse_feature_rules(Parser& parser, const Name& value, FeatureDeclaration& feature) {
   while (!parser.silent && (parser.is_word("requires") || parser.is_word("excludes"))) {
@@ -297,19 +283,6 @@ Use parse_use(Parser& parser) {
   }
   use.span = parser.since(begin);
   return use;
-}
-
-Fuse parse_fuse(Parser& parser) {
-  Fuse fuse;
-  const uint32_t begin = parser.peek().begin;
-  parser.take();
-  fuse.name = parser.expect_name("the name of the kernel");
-  if (!parser.silent) fuse.may = parser.accept_word("may");
-  if (!parser.silent) fuse.unrounded = parser.accept_word("unrounded");
-  if (!parser.silent && parser.accept_word("when")) fuse.term = parse_feature_term(parser);
-  fuse.span = parser.since(begin);
-  parse_items(parser, fuse.body);
-  return fuse;
 }
 
 void parse_comparison(Parser& parser, Assertion& assertion) {
