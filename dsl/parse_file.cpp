@@ -284,19 +284,6 @@ Use parse_use(Parser& parser) {
   return use;
 }
 
-Fuse parse_fuse(Parser& parser) {
-  Fuse fuse;
-  const uint32_t begin = parser.peek().begin;
-  parser.take();
-  fuse.name = parser.expect_name("the name of the kernel");
-  if (!parser.silent) fuse.may = parser.accept_word("may");
-  if (!parser.silent) fuse.unrounded = parser.accept_word("unrounded");
-  if (!parser.silent && parser.accept_word("when")) fuse.term = parse_feature_term(parser);
-  fuse.span = parser.since(begin);
-  parse_items(parser, fuse.body);
-  return fuse;
-}
-
 void parse_comparison(Parser& parser, Assertion& assertion) {
   constexpr TokenKind kComparisons[] = {TokenKind::less_equal, TokenKind::less, TokenKind::equal_equal, TokenKind::greater, TokenKind::greater_equal};
   for (const TokenKind kind : kComparisons) {

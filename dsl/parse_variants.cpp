@@ -1,4 +1,4 @@
-// What chooses between variants: features and their terms, `features` and `spectrum` of a pass, `spectrum` declarations.
+// What chooses between variants: features and their terms, `features` and `spectrum` of a pass, `spectrum` declarations, `fuse`.
 #include "dsl/parser_state.h"
 
 namespace rg::dsl {
@@ -27,6 +27,33 @@ void parse_member(Parser& parser, ast::SpectrumDeclaration& spectrum) {
 }
 
 }  // namespace
+
+ast::FeatureTerm parse_feature_term(Parser& parser) {
+  ast::FeatureTerm term;
+  const uint32_t begin = parser.peek().begin;
+  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
+  term.feature = parser.expect_name("a feature");
+  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
+    term.negated ^= parser.is(TokenKind::not_equal);
+    parser.take();
+    term.value = parser.expect_name("a value of the feature");
+  }
+  term.span = parser.since(begin);
+  return term;
+}
+
+ast::Fuse parse_fuse(Parser& parser) {
+  ast::Fuse fuse;
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  fuse.name = parser.expect_name("the name of the kernel");
+  if (!parser.silent) fuse.may = parser.accept_word("may");
+  if (!parser.silent) fuse.unrounded = parser.accept_word("unrounded");
+  if (!parser.silent && parser.accept_word("when")) fuse.term = parse_feature_term(parser);
+  fuse.span = parser.since(begin);
+  parse_items(parser, fuse.body);
+  return fuse;
+}
 
 ast::FeaturesStatement parse_features(Parser& parser) {
   ast::FeaturesStatement statement;

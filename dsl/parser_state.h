@@ -105,6 +105,8 @@ ast::FeatureDeclaration parse_feature(Parser& parser);
 ast::FeaturesStatement parse_features(Parser& parser);
 ast::SpectrumStatement parse_spectrum_statement(Parser& parser);
 ast::SpectrumDeclaration parse_spectrum(Parser& parser);
+ast::FeatureTerm parse_feature_term(Parser& parser);
+ast::Fuse parse_fuse(Parser& parser);  // after `fuse`
 // Something on the same line that is neither one of `options` nor the next statement.
 void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options);
 ast::GraphDeclaration parse_graph(Parser& parser, bool is_technique);

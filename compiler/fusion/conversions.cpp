@@ -64,7 +64,11 @@ const char* helper(Format format) {
     case Numeric::unorm:
       return "float rg_to_unorm(float v, uint bits) { float most = float((1u << bits) - 1u); return float(uint(roundEven(max(min(v, 1.0), 0.0) * most))) / most; }\n";
     case Numeric::snorm:
-      return "float rg_to_snorm(float v, uint bits) { float most = float((1u << (bits - 1u)) - 1u); return float(int(roundEven(max(min(v, 1.0), -1.0) * most))) / most; }\n";
+      return "float rg_to_snorm(float v, uint bits) {\n"  // there is no negative zero
+             "  float most = float((1u << (bits - 1u)) - 1u);\n"
+             "  int q = int(roundEven(max(min(v, 1.0), -1.0) * most));\n"
+             "  return (q < 0 ? -1.0 : 1.0) * (float(abs(q)) / most);\n"
+             "}\n";
     case Numeric::uint:
       return "uint rg_to_uint(uint v, uint bits) { return min(v, (1u << bits) - 1u); }\n";
     case Numeric::sint:

@@ -46,6 +46,7 @@ TEST(Refusals, PointAtBothAccesses) {
   const Compiled compiled = compile_files(pair_of(kFirst, "block \"second.glsl\"\n read mid as sampled(linear)\n write shown as element\n dispatch over view",
                                                   "void element(ivec2 at) { mid = vec4(at, 0, 1); }", "void element(ivec2 at) { shown = textureLod(mid, vec2(0.5), 0.0); }"));
   const std::string text = compiled.text();
+  EXPECT_EQ(compiled.diagnostics.rows().back().notes.front().kind, dsl::DiagnosticKind::FusedWith);
   EXPECT_TRUE(says(text, "write mid as element")) << text;
   EXPECT_TRUE(says(text, "read mid as sampled(linear)")) << text;
 }
@@ -85,7 +86,9 @@ TEST(Refusals, WhatIsBetweenStaysBetween) {
   Files files = pair_of(kFirst, kSecond);
   std::string& text = files["main.rg"];
   text.replace(text.find("fuse both"), 9, "fuse both may");
-  text.insert(text.find("    pass second"), "    pass look : compute { shader \"look.comp\" group 8 8 1  read mid as sampled  write other as storage  keep  dispatch over view }\n");
+  text.insert(text.find("    pass second"),
+              "    pass look : compute {\n      shader \"look.comp\" group 8 8 1\n      read mid as sampled\n      write other as storage\n      keep\n"
+              "      dispatch over view\n    }\n");
   files["look.comp"] = "void main() { imageStore(other, ivec2(gl_GlobalInvocationID.xy), texelFetch(mid, ivec2(0), 0)); }";
   const Compiled compiled = compile_files(files);
   EXPECT_FALSE(compiled.diagnostics.has_errors()) << compiled.text();
