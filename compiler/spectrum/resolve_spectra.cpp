@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <set>
 
 #include "compiler/shaders/cache.h"
@@ -104,6 +105,25 @@ std::optional<SpectrumProfile> find_profile(const dsl::Spectrum& spectrum, const
 // Sampled and stored texels cost as much as several arithmetic instructions: latency hidden by other waves, bandwidth not.
 double work_of(const ShaderStatistics& s) { return s.alu + 8.0 * s.samples + 4.0 * (s.loads + s.stores) + 8.0 * s.atomics; }
 
+double cost_of(const Words& words) {
+  const ShaderStatistics statistics = find_statistics(words);
+  return work_of(statistics) * register_factor(statistics.live_scalars);
+}
+
+// Liveness takes longer than reading the module: the cache keeps the result, the two words of a double.
+double cached_cost(const Words& words, const ShaderCache* cache) {
+  if (cache == nullptr) return cost_of(words);
+  Sha256 hash;
+  hash.add_part("kernel cost 1").add_part({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t)});
+  const Digest key = hash.finish();
+  if (const auto found = cache->find(key); found && found->size() == 1 && (*found)[0].size() == 2)
+    return std::bit_cast<double>(uint64_t{(*found)[0][0]} | uint64_t{(*found)[0][1]} << 32);
+  const double cost = cost_of(words);
+  const auto bits = std::bit_cast<uint64_t>(cost);
+  cache->store(key, {{static_cast<uint32_t>(bits), static_cast<uint32_t>(bits >> 32)}});
+  return cost;
+}
+
 // Nothing, each feature, everything, and what most tiles ask for.
 std::set<Mask> sampled_sets(const SpectrumProblem& problem) {
   constexpr size_t kMasks = 32;
@@ -116,7 +136,7 @@ std::set<Mask> sampled_sets(const SpectrumProblem& problem) {
 }
 
 // The kernels of these sets, as they will be built. Empty where the shader does not compile: that is reported when it is built.
-std::vector<ShaderStatistics> measure_kernels(const dsl::Program& program, const User& user, const std::vector<Mask>& sets, const ReadFile& read,
+std::vector<double> measure_kernels(const dsl::Program& program, const User& user, const std::vector<Mask>& sets, const ReadFile& read,
                                               dsl::SourceFiles files, const SpectrumOptions& options) {
   const dsl::Program expanded = expand_spectra(program, {{user.pass->spectrum, sets}});
   const dsl::Graph& graph = expanded.graphs[user.graph];
@@ -135,12 +155,12 @@ std::vector<ShaderStatistics> measure_kernels(const dsl::Program& program, const
   }
   dsl::Diagnostics ignored;
   const ShaderBundle bundle = compile_shaders(expanded, user.graph, space, read, files, {options.cache, options.workers, options.progress}, ignored);
-  std::vector<ShaderStatistics> statistics;
+  std::vector<double> costs;
   for (const size_t pass : kernels) {
     if (pass == SIZE_MAX || bundle.passes[pass].shaders.empty()) return {};
-    statistics.push_back(find_statistics(bundle.shaders[bundle.passes[pass].shaders[0]].words));
+    costs.push_back(cached_cost(bundle.shaders[bundle.passes[pass].shaders[0]].words, options.cache));
   }
-  return statistics;
+  return costs;
 }
 
 SpectrumProblem make_problem(const dsl::Spectrum& spectrum, const std::optional<SpectrumProfile>& profile, const SpectrumOptions& options) {
@@ -174,10 +194,9 @@ ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, S
   ModeChoice choice;
   for (int round = 0; round < kRounds && !wanted.empty(); ++round) {
     const std::vector<Mask> sets(wanted.begin(), wanted.end());
-    const std::vector<ShaderStatistics> statistics = measure_kernels(program, user, sets, read, files, options);
-    for (size_t i = 0; i < statistics.size(); ++i)
-      samples.emplace_back(sets[i], work_of(statistics[i]) * register_factor(statistics[i].live_scalars));
-    if (!statistics.empty()) problem.costs = fitted(problem.features, samples);
+    const std::vector<double> costs = measure_kernels(program, user, sets, read, files, options);
+    for (size_t i = 0; i < costs.size(); ++i) samples.emplace_back(sets[i], costs[i]);
+    if (!costs.empty()) problem.costs = fitted(problem.features, samples);
     choice = choose_modes(problem);
     known.insert(wanted.begin(), wanted.end());
     wanted.clear();

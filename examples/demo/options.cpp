@@ -1,16 +1,31 @@
 #include "examples/demo/options.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
 
 #include "examples/demo/frame_data.h"
 #include "examples/demo/spectrum.h"
 
 namespace rg::demo {
+namespace {
+
+// "courtyard=2"
+std::optional<std::pair<std::string, double>> weight_of(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos || equals + 1 == text.size()) return std::nullopt;
+  char* end = nullptr;
+  const double weight = std::strtod(text.c_str() + equals + 1, &end);
+  if (*end != '\0' || !(weight >= 0) || !std::isfinite(weight)) return std::nullopt;
+  return std::pair(text.substr(0, equals), weight);
+}
+
+}  // namespace
 
 std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) {
   DemoOptions options;
   CLI::App app{"Renders a scene through the generated frame and writes pictures."};
-  std::vector<std::string> views, forced, features = {"all"};
+  std::vector<std::string> views, weights, forced, features = {"all"};
   for (const std::string_view name : frame::spectrum::light_features::features) features.emplace_back(name);
   for (const std::string_view name : view_names()) views.emplace_back(name);
   app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 3840))->capture_default_str();
@@ -23,7 +38,9 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
   app.add_option("--record-spectrum", options.record_spectrum,
                  "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
-  app.add_option("--weight", options.weights, "how much a camera counts in that file; may be repeated")->type_name("CAMERA NUMBER");
+  app.add_option("--weight", weights, "how much a camera counts in that file; 1 if left out; may be repeated")
+      ->type_name("CAMERA=NUMBER")
+      ->check(CLI::Validator([](std::string& text) { return weight_of(text) ? "" : "`" + text + "` is not of the form CAMERA=NUMBER"; }, ""));
   app.add_option("--force-feature", forced, "shade every tile with a feature of lamps, whether it has such lamps or not; may be repeated; `all`")
       ->check(CLI::IsMember(features));
   app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
@@ -38,6 +55,7 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_flag("--list-devices", options.list_devices, "print the Vulkan devices and end");
   try {
     app.parse(argc, argv);
+    for (const std::string& text : weights) options.weights.insert(*weight_of(text));
     for (const std::string& name : forced) options.forced_features |= feature_bit(name).value_or((1u << frame::LAMP_FEATURES) - 1);
     return options;
   } catch (const CLI::ParseError& error) {

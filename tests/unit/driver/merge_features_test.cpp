@@ -8,6 +8,7 @@
 
 #include "compiler/build_graph.h"
 #include "compiler/compile.h"
+#include "compiler/configurations.h"
 #include "compiler/cull.h"
 #include "compiler/verify/verify.h"
 #include "dsl/front_end.h"

@@ -78,5 +78,118 @@ TEST(Features, ChooseTheVariantOfEachFrame) {
   EXPECT_FALSE(graph->execute(inputs));
 }
 
+// Adds where `add` is on, and sums a row by what the device has.
+const std::map<std::string, std::string> kDevice = {{"frame.rg", R"(module frame
+feature add  : bool
+feature sums : device subgroup_arithmetic
+graph frame() {
+  buffer shown : u32[65] readback
+  pass show : compute {
+    shader "show.comp" group 64 1 1
+    features sums
+    write  shown as storage
+    dispatch groups 1
+  }
+  when add {
+    pass more : compute {
+      shader "more.comp" group 65 1 1
+      update shown as storage
+      dispatch groups 1
+    }
+  }
+}
+)"},
+                                                   {"show.comp", R"(
+#if FEATURE_sums
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#endif
+shared uint total;
+void main() {
+  uint i = gl_LocalInvocationIndex, value = i * i;
+  if (i == 0u) total = 0u;
+  barrier();
+#if FEATURE_sums
+  uint sum = subgroupAdd(value);
+  if (subgroupElect()) atomicAdd(total, sum);
+#else
+  atomicAdd(total, value);
+#endif
+  barrier();
+  shown[i] = i;
+  if (i == 0u) shown[64] = total;
+}
+)"},
+                                                   {"more.comp", "void main() { shown[gl_LocalInvocationIndex] += 1000u; }\n"}};
+
+compiler::CompileResult compile_device_frame() {
+  dsl::Diagnostics diagnostics;
+  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
+    const auto file = kDevice.find(path);
+    if (file != kDevice.end()) return file->second;
+    why = "no such file";
+    return std::nullopt;
+  };
+  compiler::CompileOptions options;
+  options.until = compiler::Until::plans;
+  compiler::CompileResult result = compiler::compile("frame.rg", read, options, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);
+  return result;
+}
+
+void expect_frames(Device& device, const Plan& plan) {
+  auto graph = GraphInstance::create(device, plan, {});
+  ASSERT_TRUE(graph) << graph.error().message;
+  for (uint32_t frame = 0; frame < 6; ++frame) {
+    const uint32_t values[] = {0, frame % 2};  // sums, which nobody asks; add
+    FrameInputs inputs;
+    inputs.features = values;
+    const Status status = graph->execute(inputs);
+    ASSERT_TRUE(status) << status.error().message;
+    const std::vector<uint32_t> shown = words_of(*graph);
+    ASSERT_EQ(shown.size(), 65u);
+    const uint32_t more = frame % 2 == 0 ? 0 : 1000;
+    EXPECT_EQ(shown[64], 85344u + more) << "frame " << frame;
+    for (uint32_t i = 0; i < 64; ++i) ASSERT_EQ(shown[i], i + more) << "frame " << frame;
+  }
+}
+
+TEST(Features, OfTheDeviceAndOfFramesGiveTheSameResult) {
+  const compiler::CompileResult result = compile_device_frame();
+  ASSERT_EQ(result.graphs[0].plans.size(), 1u);
+  const Plan plan = result.graphs[0].plans[0].plan.view();
+  ASSERT_EQ(plan.features.size(), 2u);
+  EXPECT_EQ(plan.features[0].name, "sums");
+  ASSERT_EQ(plan.feature_conditions.size(), 1u);
+  auto device = Device::create({});
+  if (!device && std::getenv("RGC_REQUIRE_GPU")) FAIL() << device.error().message;
+  if (!device) GTEST_SKIP() << device.error().message;
+  expect_frames(*device, plan);
+  DeviceOptions without;
+  without.without = {Capability::subgroup_arithmetic};
+  auto plain = Device::create(without);
+  ASSERT_TRUE(plain) << plain.error().message;
+  EXPECT_FALSE(plain->has(Capability::subgroup_arithmetic));
+  expect_frames(*plain, plan);
+}
+
+// What does not fit the device is not created: a null device tells pipelines by the SPIR-V they are made of.
+TEST(Features, PipelinesThatTheDeviceCannotRunAreNotCreated) {
+  const compiler::CompileResult result = compile_device_frame();
+  const Plan plan = result.graphs[0].plans[0].plan.view();
+  const auto pipelines = [&](std::vector<Capability> has) {
+    std::string log;
+    NullOptions options;
+    options.capabilities = std::move(has);
+    Device device = Device::null(&log, options);
+    auto graph = GraphInstance::create(device, plan, {});
+    EXPECT_TRUE(graph);
+    size_t count = 0;
+    for (size_t at = log.find("vkCreateComputePipelines"); at != std::string::npos; at = log.find("vkCreateComputePipelines", at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(pipelines({}), 2u);
+  EXPECT_EQ(pipelines({Capability::subgroup_arithmetic}), 2u);
+}
+
 }  // namespace
 }  // namespace rg::test
