@@ -28,20 +28,6 @@ void parse_member(Parser& parser, ast::SpectrumDeclaration& spectrum) {
 
 }  // namespace
 
-ast::FeatureTerm parse_feature_term(Parser& parser) {
-  ast::FeatureTerm term;
-  const uint32_t begin = parser.peek().begin;
-  term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
-  term.feature = parser.expect_name("a feature");
-  if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
-    term.negated ^= parser.is(TokenKind::not_equal);
-    parser.take();
-    term.value = parser.expect_name("a value of the feature");
-  }
-  term.span = parser.since(begin);
-  return term;
-}
-
 ast::Fuse parse_fuse(Parser& parser) {
   ast::Fuse fuse;
   const uint32_t begin = parser.peek().begin;
