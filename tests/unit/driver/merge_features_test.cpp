@@ -105,8 +105,8 @@ TEST(MergeFeatures, WhatOnlyFeedsSkippedPassesIsSkippedToo) {
 
 TEST(MergeFeatures, WhatSwapsPassesKeepsItsPlans) {
   const std::string text = "feature fast : bool\n" + kBloom +
-                           "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit } }\n"
-                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit } }\n" + kShow;
+                           "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
+                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" + kShow;
   EXPECT_EQ(expect_same_frames(text), 2u);
 }
 
@@ -118,8 +118,8 @@ TEST(MergeFeatures, WhatMakesOtherPassesSuperfluousKeepsItsPlans) {
 
 TEST(MergeFeatures, ValuesThatRunTheSamePassesShareACondition) {
   const std::string text = "feature glow_of : { none, low, high }\n" + kBloom +
-                           "  when glow_of != none { pass x : raster { fullscreen \"c.frag\"  color lit } }\n"
-                           "  when glow_of == high { pass y : raster { fullscreen \"d.frag\"  color lit } }\n" + kShow;
+                           "  when glow_of != none { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
+                           "  when glow_of == high { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" + kShow;
   EXPECT_EQ(expect_same_frames(text), 1u);
   const dsl::Program merged = merge_features(load(text), dsl::GraphId{0}, {});
   ASSERT_EQ(merged.conditions.size(), 2u);
@@ -129,15 +129,15 @@ TEST(MergeFeatures, ValuesThatRunTheSamePassesShareACondition) {
 
 TEST(MergeFeatures, RulesAndOtherPlansAreKept) {
   const std::string text = "feature fast : bool\nfeature haze : bool requires fast\n" + kBloom +
-                           "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit } }\n"
-                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit } }\n"
-                           "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit } }\n" + kShow;
+                           "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
+                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n"
+                           "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit blend add(one, one) } }\n" + kShow;
   EXPECT_EQ(expect_same_frames(text), 2u);
 }
 
 TEST(MergeFeatures, WhatIsFixedOnTheCommandLineIsNoCondition) {
   const dsl::Program program =
-      load("feature haze : bool\n" + kBloom + "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit } }\n" + kShow);
+      load("feature haze : bool\n" + kBloom + "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit blend add(one, one) } }\n" + kShow);
   EXPECT_EQ(merge_features(program, dsl::GraphId{0}, {"haze=off"}), program);
 }
 
@@ -146,8 +146,8 @@ std::string many_features(size_t removing, size_t swapping) {
   for (size_t i = 0; i < removing + swapping; ++i) {
     const std::string n = std::to_string(i);
     head += "feature f" + n + " : bool\n";
-    body += "  when f" + n + " { pass on" + n + " : raster { fullscreen \"c.frag\"  color lit } }\n";
-    if (i >= removing) body += "  else { pass off" + n + " : raster { fullscreen \"c.frag\"  color lit } }\n";
+    body += "  when f" + n + " { pass on" + n + " : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n";
+    if (i >= removing) body += "  else { pass off" + n + " : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n";
   }
   return head + kBloom + body + kShow;
 }
