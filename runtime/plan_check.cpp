@@ -14,7 +14,7 @@ namespace {
 
 using plan_check::Checker;
 
-// Every reference of every row, needed or not, is to a resource there is or to none.
+// Every reference of every row, needed or not, is to a resource there is or to none; every enumerator is one that its type can hold.
 class ReferenceCheck {
  public:
   ReferenceCheck(const Plan& plan, Checker& checker) : plan_(plan), checker_(checker) {}
@@ -29,6 +29,12 @@ class ReferenceCheck {
       for (row_ = 0; row_ < rows.size() && checker_.ok(); ++row_) check(rows[row_]);
   }
   void check(const Ref& ref) { checker_.optional(ref.resource, plan_.resources.size(), "a table's row", row_, "resource"); }
+  // Those of four bytes are numbers of Vulkan, whose enumerations end there.
+  template <class Enumerator>
+    requires std::is_enum_v<Enumerator>
+  void check(const Enumerator& value) {
+    checker_.that(sizeof(Enumerator) < 4 || static_cast<uint64_t>(value) <= INT32_MAX, "a table's row", row_, "enumerator");
+  }
   template <class Other>
   void check(const Other&) {}
 

@@ -54,6 +54,7 @@ TEST(PlanCheck, WhatIsNotUsedMustStillBeThere) {
   using P = test::TestPlan;
   EXPECT_EQ(fault([](P& p) { p.groups[0].first_buffer = 1u << 20; }), "plan `test`: group 0: buffer barriers");
   EXPECT_EQ(fault([](P& p) { p.passes[1].work.counts.resource = 99; }), "plan `test`: a table's row 1: resource");
+  EXPECT_EQ(fault([](P& p) { p.accesses[1].layout = Layout{UINT32_MAX}; }), "plan `test`: a table's row 1: enumerator");
   EXPECT_EQ(fault([](P& p) { p.bindings[0].type = DescriptorType::sampler; }), "plan `test`: binding 0: a resource that it does not show");
   EXPECT_EQ(fault([](P& p) { p.extents[0].initial[0] = 100; }), "plan `test`: extent 0: initial, smallest and largest value");
   EXPECT_EQ(fault([](P& p) { p.resources[0].layers = 1u << 20; }), "plan `test`: resource 0: mips or layers");
