@@ -18,6 +18,7 @@ namespace rg {
 
 struct DeviceFunctions;  // runtime/functions.h: every Vulkan function the runtime calls, loaded per device
 
+// How a device of the runtime's own is made.
 struct DeviceOptions {
   int device = -1;              // index as `list_devices` numbers them; -1: best
   bool validate = false;        // Khronos validation with synchronization and submit-time checks; an error if the layer is missing
@@ -66,6 +67,7 @@ struct NullCounters {
   uint64_t wrong_destroys = 0;  // of handles that are not alive
   uint64_t unmet_waits = 0;     // waits, on the host or in a submit, for values that nobody had submitted a signal for
 };
+// What a null device has, and which of its calls fail.
 struct NullOptions {
   uint64_t fail_at = 0;                                     // this fallible call and no other fails; counted from 1, 0: none
   VkResult failure = VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -75,46 +77,52 @@ struct NullOptions {
   std::vector<Capability> capabilities = {};                // that it has
 };
 
+// One Vulkan device and its queues. Outlives every instance, swapchain and object made with it. Movable: what was made with it stays valid. Any thread may use it;
+// submits to one queue exclude each other.
 class Device {
  public:
+  // A device of the runtime's own with up to two queues of every family. `unsupported` where there is no loader, no driver or no device that suffices, with what is missing.
   static Result<Device> create(const DeviceOptions& options);
+  // The engine's device. `unsupported` where a function that the runtime needs is missing; `invalid_argument` where a handle is.
   static Result<Device> adopt(const ExternalDevice& external);
   // Records every call as one line of text into `log`; nothing runs. Handles are numbered in order of creation.
   // `log` may be null. Semaphores are signalled at submit, mapped memory is real and zero.
   static Device null(std::string* log, const NullOptions& options = {});
-  Device(Device&&) noexcept;
+  Device(Device&&) noexcept;  // leaves an object that can only be destroyed or assigned to
   Device& operator=(Device&&) noexcept;
   ~Device();
 
-  const DeviceFunctions& vk() const;
-  VkInstance instance() const;
+  const DeviceFunctions& vk() const;  // valid while the device lives, also when it moves
+  VkInstance instance() const;        // the runtime's, or the engine's
   // Any function of the instance by name, for extensions that the runtime does not use (surfaces, say); null: there is none.
   PFN_vkVoidFunction instance_function(const char* name) const;
-  VkDevice handle() const;
-  VkPhysicalDevice physical() const;
+  VkDevice handle() const;            // likewise
+  VkPhysicalDevice physical() const;  // the device that it runs on
   VkQueue queue() const;  // does graphics and compute
-  uint32_t queue_family() const;
+  uint32_t queue_family() const;          // of queue()
   size_t queue_count() const;             // over all families
   // The families of all queues, without repetition. Imports that a plan uses on several queues (Resource::concurrent) are created for all of them.
   std::span<const uint32_t> queue_families() const;
   // Waits on the host until nothing runs; for shutting down. Excludes submits of other threads.
   Status wait_idle();
   std::string_view name() const;          // "llvmpipe (LLVM 15.0.6, 256 bits)"
-  const VkPhysicalDeviceLimits& limits() const;
-  bool has(Capability capability) const;
+  const VkPhysicalDeviceLimits& limits() const;  // of the physical device
+  bool has(Capability capability) const;         // as enabled, less `DeviceOptions::without`
   bool validating() const;                // the layer is really loaded
   uint64_t validation_messages() const;   // errors and warnings of synchronization and core checks so far
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred = 0) const;  // UINT32_MAX: none
 
-  struct State;
-  State& state() { return *state_; }
+  struct State;                           // device_state.h, for the runtime's own files
+  State& state() { return *state_; }      // likewise
 
  private:
   explicit Device(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
 
+// A device that the loader knows; `reason`: why it is not usable.
 struct DeviceDescription { std::string name; uint32_t api_version = 0; bool usable = false; std::string reason; };
+// All of them, numbered as DeviceOptions::device. Makes an instance and destroys it; empty where there is no loader.
 std::vector<DeviceDescription> list_devices();
 
 }  // namespace rg

@@ -42,10 +42,13 @@ struct Recording {
   const PassInfo& pass;
   VkDescriptorSet set = VK_NULL_HANDLE;
 };
+// Records one pass; `user` is FrameInputs::user.
 using RecordFunction = void (*)(void* user, Recording& recording);
 
 struct ImportedImage { VkImage image = VK_NULL_HANDLE; VkImageView view = VK_NULL_HANDLE; };  // view: all mips and layers, the declared dimension
+// A part of a buffer of the engine's.
 struct ImportedBuffer { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
+// One of the two, by the kind of the resource.
 struct Import { ImportedImage image = {}; ImportedBuffer buffer = {}; };
 
 // A semaphore of the engine that a frame waits for or signals; value 0: a binary one.
@@ -58,6 +61,7 @@ struct SemaphoreUse {
   Index import_slot = kNone;
 };
 
+// What one frame takes. Read during the call only.
 struct FrameInputs {
   std::span<const Import> imports = {};                        // by Resource::import_slot
   std::span<const std::span<const std::byte>> params = {};     // by index of Plan::params, exactly `bytes` each
@@ -90,8 +94,9 @@ struct FrameDone {
 // Memory that the transients of several instances take turns in: the views of a split screen, the faces of a probe, the versions of a plan. A frame of one
 // waits, on the GPU, for the last frame of whoever had it before. One thread for all of them; lives as long as one of them does.
 struct TransientHeap;
-std::shared_ptr<TransientHeap> make_transient_heap();
+std::shared_ptr<TransientHeap> make_transient_heap();  // empty; grows with its first users
 
+// How an instance is made. Spans are read during the call only.
 struct GraphOptions {
   uint32_t frames_in_flight = 2;          // 1 to 4
   std::span<const int64_t> extents = {};       // 3 values an extent; empty: the plan's initial ones
@@ -109,20 +114,25 @@ struct GraphOptions {
   Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
 };
 
+// Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory.
 struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0; };
 struct PassTime { std::string_view pass; double ms = 0; double begin_ms = 0; };  // begin: after the frame's first timestamp, on the clock of its queue
-struct PassStatistics {  // of one pass of a graphics queue; zeros elsewhere
+// Of one pass of a graphics queue; zeros elsewhere.
+struct PassStatistics {
   std::string_view pass;
   uint64_t vertices = 0, vertex_invocations = 0, primitives = 0, fragment_invocations = 0, compute_invocations = 0;
 };
+// Where a resource lies in its heap.
 struct PlacedResource { std::string_view name; uint64_t offset = 0, bytes = 0; };
 
-struct Dump {  // contents of one resource after one pass, tightly packed, mip 0, all layers or slices
+// Contents of one resource after one pass, tightly packed, one mip, all layers or slices.
+struct Dump {
   Format format = Format::undefined;
   uint32_t width = 1, height = 1, depth_or_layers = 1, bytes_per_texel = 1;
   std::vector<std::byte> bytes;
 };
 
+// A graph on a device, frame after frame; see the top of this file.
 class GraphInstance {
  public:
   // The device and the tables that `plan` points to outlive the instance; the device may be moved.
@@ -134,7 +144,7 @@ class GraphInstance {
   // The next frame of this instance follows the last one of `other`: same frame number, same history, and it waits for it on the GPU. Both share
   // their kept resources, by create_successor. No stall of the host, no allocation beyond a few barriers.
   Status continue_from(GraphInstance& other);
-  GraphInstance(GraphInstance&&) noexcept;
+  GraphInstance(GraphInstance&&) noexcept;  // leaves an object that can only be destroyed or assigned to
   GraphInstance& operator=(GraphInstance&&) noexcept;
   ~GraphInstance();  // waits for its own frames
 
@@ -149,6 +159,7 @@ class GraphInstance {
   Status use_commands(std::span<const OwnCommands> parts, const FrameDone& done);
   // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else `invalid_argument`.
   Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
+  // Waits on the host for all frames of this instance. Cost: what is in flight.
   Status wait_idle();
   // Before its next use `resource` is set to its declared initial value again, all copies of it: its contents became wrong, as after a cut of the camera or a
   // change of the scene. On the GPU, between the frames before and the next one; the host waits for nothing but an earlier such reset. `invalid_argument` for
@@ -158,10 +169,10 @@ class GraphInstance {
   // size and are used from their corner. Cost: O(passes), no allocation.
   Status set_active(std::span<const int64_t> extents);
 
-  const Plan& plan() const;
-  const PassInfo& pass_info(Index pass) const;
-  MemoryReport memory() const;
-  std::vector<PlacedResource> placements() const;
+  const Plan& plan() const;                     // that it runs; its tables are those that were given
+  const PassInfo& pass_info(Index pass) const;  // `pass` below the number of passes. Valid until a resize
+  MemoryReport memory() const;                  // at the extents of creation or resize
+  std::vector<PlacedResource> placements() const;  // likewise; a tool: allocates
   // Of the last finished frame: GPU timestamps, or wall-clock times with submit_per_pass.
   std::vector<PassTime> pass_times();
   // Of the last finished frame, with GraphOptions::statistics; empty where the device has none.
@@ -170,7 +181,7 @@ class GraphInstance {
   Result<std::span<const std::byte>> readback(Index resource);
   // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump.
   Status request_dump(Index pass, Index resource, uint32_t mip = 0);
-  Result<Dump> take_dump();
+  Result<Dump> take_dump();  // waits for that frame; `invalid_argument` where none was asked for
   uint64_t frame() const;  // frames executed, those of the instances before included
   // Whether `prev(1)` of a history or persistent resource is what a frame has left, and not its initial value.
   bool history_valid(Index resource) const;

@@ -6,12 +6,43 @@
 #include <vector>
 
 #include "runtime/plan_check_parts.h"
+#include "runtime/plan_fields.h"
 
 namespace rg {
 
 namespace {
 
 using plan_check::Checker;
+
+// Every reference of every row, needed or not, is to a resource there is or to none; every enumerator is one that its type can hold.
+class ReferenceCheck {
+ public:
+  ReferenceCheck(const Plan& plan, Checker& checker) : plan_(plan), checker_(checker) {}
+
+  template <plan_file::PlanRow Row>
+  void check(const Row& row) {
+    plan_file::each_field(row, [&](const auto&... fields) { (check(fields), ...); });
+  }
+  template <class Row>
+  void check(std::span<const Row> rows) {
+    if constexpr (plan_file::PlanRow<Row>)
+      for (row_ = 0; row_ < rows.size() && checker_.ok(); ++row_) check(rows[row_]);
+  }
+  void check(const Ref& ref) { checker_.optional(ref.resource, plan_.resources.size(), "a table's row", row_, "resource"); }
+  // Those of four bytes are numbers of Vulkan, whose enumerations end there.
+  template <class Enumerator>
+    requires std::is_enum_v<Enumerator>
+  void check(const Enumerator& value) {
+    checker_.that(sizeof(Enumerator) < 4 || static_cast<uint64_t>(value) <= INT32_MAX, "a table's row", row_, "enumerator");
+  }
+  template <class Other>
+  void check(const Other&) {}
+
+ private:
+  const Plan& plan_;
+  Checker& checker_;
+  size_t row_ = 0;
+};
 
 bool has_operands(ExprOp op) { return op != ExprOp::constant && op != ExprOp::extent; }
 
@@ -304,6 +335,7 @@ Status check_plan(const Plan& plan) {
   check_features(plan, checker);
   check_small_tables(plan, checker);
   for (size_t i = 0; i < plan.passes.size(); ++i) check_pass(plan, i, checker);
+  ReferenceCheck(plan, checker).check(plan);
   check_periods(plan, checker);
   plan_check::check_schedule(plan, checker);
   return checker.status();

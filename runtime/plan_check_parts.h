@@ -21,7 +21,7 @@ class Checker {
     that(value == kNone || value < size, table, row, what);
   }
   void range(Index first, uint32_t count, size_t size, std::string_view table, size_t row, std::string_view what) {
-    that(count == 0 || (first <= size && count <= size - first), table, row, what);
+    that(first <= size && count <= size - first, table, row, what);
   }
   void expr(Index value, std::string_view table, size_t row, std::string_view what) { optional(value, plan_.exprs.size(), table, row, what); }
   void ref(Ref value, ResourceKind kind, std::string_view table, size_t row, std::string_view what) {

@@ -16,6 +16,7 @@ Status check_interface(const Plan& built, const Plan& loaded);
 
 // By name; kNone: there is none. O(rows).
 Index find_pass(const Plan& plan, std::string_view name);
+// Likewise.
 Index find_resource(const Plan& plan, std::string_view name);
 
 }  // namespace rg

@@ -18,7 +18,7 @@ class ChromeTrace {
  public:
   // The last finished frame of `graph`; call it after every frame that is to be seen (it waits for it).
   void add(GraphInstance& graph);
-  std::string json() const;
+  std::string json() const;  // of all that was added, for a file
 
  private:
   struct Slice {

@@ -16,6 +16,7 @@
 
 namespace rg {
 
+// What the images of a swapchain shall be.
 struct SwapchainOptions {
   VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;  // must be that of the graph's surface; an error where the surface cannot show it
   VkColorSpaceKHR color_space = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
@@ -32,15 +33,17 @@ struct Picture {
   uint32_t index = 0;
   // For GraphInstance::use_semaphores: the image may be written after `acquired`, and is presented after `drawn`. The slot is the surface's import slot.
   std::array<SemaphoreUse, 1> acquired = {}, drawn = {};
+  // Whether there is something to draw into.
   explicit operator bool() const { return image.image != VK_NULL_HANDLE; }
 };
 
+// The images of one surface, made anew as the window changes; see the top of this file.
 class Swapchain {
  public:
   // The device was created with VK_KHR_swapchain (and its instance with the surface extensions); `surface` outlives the swapchain and belongs to the
   // same instance. Errors: `unsupported` where the device cannot present to the surface or not in that format.
   static Result<Swapchain> create(Device& device, VkSurfaceKHR surface, VkExtent2D window, const SwapchainOptions& options = {});
-  Swapchain(Swapchain&&) noexcept;
+  Swapchain(Swapchain&&) noexcept;  // leaves an object that can only be destroyed or assigned to
   Swapchain& operator=(Swapchain&&) noexcept;
   ~Swapchain();  // waits for the device
 
@@ -50,9 +53,9 @@ class Swapchain {
   // After a frame that signals `drawn`. An out-of-date surface is no error: the next acquire makes the images anew.
   Status present(const Picture& picture);
 
-  VkFormat format() const;
+  VkFormat format() const;  // of all pictures
 
-  struct State;
+  struct State;  // in swapchain.cpp
 
  private:
   explicit Swapchain(std::unique_ptr<State> state);

@@ -15,16 +15,20 @@ namespace rg {
 template <class T>
 struct Required {
   Required() = delete;
+  // Given by name.
   constexpr Required(const T& given) : value(given) {}
   T value;
 };
 
+// The size of an extent of one axis, in its own unit: texels, froxels, elements.
 struct Size1 {
   uint32_t width = 1;
 };
+// Likewise, of two axes.
 struct Size2 {
   uint32_t width = 1, height = 1;
 };
+// Likewise, of three axes.
 struct Size3 {
   uint32_t width = 1, height = 1, depth = 1;
 };
@@ -47,6 +51,7 @@ struct PassFigures {
   uint32_t barriers = 0;  // right before it
   uint64_t before = 0;    // bit i: batch i has finished before its batch begins
 };
+// See PassFigures.
 struct ResourceFigures {
   uint64_t bytes = 0, offset = 0;  // estimated, all copies; the offset only of transients
   bool transient = false;
@@ -57,12 +62,14 @@ struct ShaderFigures {
   uint32_t instructions = 0, alu = 0, samples = 0, loads = 0, stores = 0, atomics = 0, branches = 0;
   uint32_t shared_bytes = 0, live_scalars = 0;  // live: 32-bit values alive at once
 };
+// `a` stands before `b` in the serial order.
 constexpr bool runs_before(const PassFigures& a, const PassFigures& b) { return a.position < b.position; }
 // No barrier separates the two, or they run on different queues and neither waits for the other.
 constexpr bool overlap(const PassFigures& a, const PassFigures& b) {
   if (a.queue == b.queue) return a.group == b.group;
   return a.batch < 64 && b.batch < 64 && (a.before >> b.batch & 1) == 0 && (b.before >> a.batch & 1) == 0;
 }
+// The two lie in the same bytes, at the initial extents and by the profile's sizes.
 constexpr bool share_bytes(const ResourceFigures& a, const ResourceFigures& b) {
   return a.transient && b.transient && a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes;
 }
@@ -71,26 +78,35 @@ constexpr uint32_t lifetime(const ResourceFigures& resource) { return resource.f
 
 // Inside a raster pass: rendering has begun, viewport and scissor cover the target.
 struct RasterRecording : Recording {
+  // vkCmdBindPipeline: one of the engine's own, built from PassInfo.
   void bind_pipeline(VkPipeline pipeline) const { vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline); }
+  // vkCmdBindVertexBuffers, one binding.
   void bind_vertices(uint32_t binding, VkBuffer buffer, VkDeviceSize offset = 0) const {
     vk.CmdBindVertexBuffers(commands, binding, 1, &buffer, &offset);
   }
+  // vkCmdBindIndexBuffer.
   void bind_indices(VkBuffer buffer, VkDeviceSize offset = 0, VkIndexType type = VK_INDEX_TYPE_UINT32) const {
     vk.CmdBindIndexBuffer(commands, buffer, offset, type);
   }
+  // vkCmdDraw.
   void draw(uint32_t vertices, uint32_t instances = 1, uint32_t first_vertex = 0, uint32_t first_instance = 0) const {
     vk.CmdDraw(commands, vertices, instances, first_vertex, first_instance);
   }
+  // vkCmdDrawIndexed.
   void draw_indexed(uint32_t indices, uint32_t instances = 1, uint32_t first_index = 0, int32_t vertex_offset = 0,
                     uint32_t first_instance = 0) const {
     vk.CmdDrawIndexed(commands, indices, instances, first_index, vertex_offset, first_instance);
   }
 };
+// Inside a compute pass: barriers are in place.
 struct ComputeRecording : Recording {
+  // vkCmdBindPipeline.
   void bind_pipeline(VkPipeline pipeline) const { vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline); }
+  // vkCmdDispatch: numbers of groups.
   void dispatch(uint32_t x, uint32_t y = 1, uint32_t z = 1) const { vk.CmdDispatch(commands, x, y, z); }
 };
 
+// vkCmdPushConstants of the whole block; `stages` as the pass declares them. Generated `push` calls it.
 template <class T>
 void push_constants(const Recording& recording, VkShaderStageFlags stages, const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);

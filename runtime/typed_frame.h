@@ -31,36 +31,50 @@ class TypedFrame {
   bool history_valid(Index resource) const;  // see GraphInstance::history_valid
 
   // See the functions of these names in runtime/graph.h.
-  Status use_commands(std::span<const OwnCommands> parts, const FrameDone& done);
+  Status use_commands(std::span<const OwnCommands> parts, const FrameDone& done);  // passes by the generated names
+  // As GraphInstance::use_semaphores.
   Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
+  // As the functions of GraphInstance.
   Status wait_idle() { return instance_.wait_idle(); }
+  // As GraphInstance::frame.
   uint64_t frame() const { return instance_.frame(); }
+  // As GraphInstance::memory.
   MemoryReport memory() const { return instance_.memory(); }
   // An empty one where a reloaded plan has no such pass; never for passes that the host records.
   const PassInfo& pass_info(Index pass) const;
 
   // Looking inside: times of the last finished frame, the same as `rgc --profile` reads it, and resources as they are after a pass.
   std::vector<PassTime> pass_times() { return instance_.pass_times(); }
+  // As GraphInstance::pass_statistics.
   std::vector<PassStatistics> pass_statistics() { return instance_.pass_statistics(); }
-  std::string profile_json();
+  std::string profile_json();  // see profile.h
+  // As GraphInstance::request_dump.
   Status request_dump(Index pass, Index resource, uint32_t mip = 0);
+  // As GraphInstance::take_dump.
   Result<Dump> take_dump() { return instance_.take_dump(); }
 
   // The plan that runs now: the generated one, or the last reloaded.
   const Plan& running_plan() const { return instance_.plan(); }
+  // The untyped instance; another object's after a move, another instance after a reload.
   GraphInstance& instance() { return instance_; }
 
  protected:
+  // `built`: the generated plan, of which `instance` runs this or a reloaded one.
   TypedFrame(const Plan& built, GraphInstance instance, const GraphOptions& options);
+  // For create_successor of generated classes.
   static Result<GraphInstance> succeed(TypedFrame& current, const Plan& plan, const GraphOptions& options);
+  // For the generated execute.
   Status execute_inputs(const FrameInputs& inputs) {
     const Status done = instance_.execute(inputs);
     if (retired_) [[unlikely]]
       let_go();
     return done;
   }
+  // For the generated resize.
   Status resize_to(std::span<const int64_t> extents) { return instance_.resize(extents); }
+  // For the generated set_active.
   Status set_active_to(std::span<const int64_t> extents) { return instance_.set_active(extents); }
+  // For the generated accessors.
   Result<std::span<const std::byte>> read_back(Index resource);
 
  private:

@@ -49,6 +49,43 @@ TEST(PlanCheck, NamesTheRow) {
   EXPECT_EQ(fault([](P& p) { p.batches.push_back({3, 0, 0, 0, 0, 0, 0}); }), "plan `test`: batch 0: queue");
 }
 
+// Each was found by tests/fuzz/fuzz_plan_file.cpp, or by reading what it could have found.
+TEST(PlanCheck, WhatIsNotUsedMustStillBeThere) {
+  using P = test::TestPlan;
+  EXPECT_EQ(fault([](P& p) { p.groups[0].first_buffer = 1u << 20; }), "plan `test`: group 0: buffer barriers");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.counts.resource = 99; }), "plan `test`: a table's row 1: resource");
+  EXPECT_EQ(fault([](P& p) { p.accesses[1].layout = Layout{UINT32_MAX}; }), "plan `test`: a table's row 1: enumerator");
+  EXPECT_EQ(fault([](P& p) { p.bindings[0].type = DescriptorType::sampler; }), "plan `test`: binding 0: a resource that it does not show");
+  EXPECT_EQ(fault([](P& p) { p.extents[0].initial[0] = 100; }), "plan `test`: extent 0: initial, smallest and largest value");
+  EXPECT_EQ(fault([](P& p) { p.resources[0].layers = 1u << 20; }), "plan `test`: resource 0: mips or layers");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.kind = WorkKind::dispatch; }), "plan `test`: pass 1: a dispatch outside a compute pass");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.max_draws = 1u << 30; }), "plan `test`: pass 1: most draws");
+}
+
+TEST(PlanCheck, HistoriesOfManyLengthsAreRefused) {
+  test::Counter t = test::counter();
+  for (const uint32_t copies : {17u, 19u, 23u}) {
+    Resource history = t.plan.resources[t.state];
+    history.copies = copies;
+    const Index index = test::TestPlan::add(t.plan.resources, history);
+    t.plan.buffer_barriers.push_back(test::buffer_barrier({index, 0}, stage::copy, 0, stage::copy, 0));
+  }
+  t.plan.groups.back().first_buffer = 0, t.plan.groups.back().buffer_count = static_cast<uint32_t>(t.plan.buffer_barriers.size());
+  EXPECT_EQ(test::message(check_plan(t.plan.view())), "plan `test`: group 2: histories of too many different lengths");
+}
+
+// Sizes wrap; what comes out is refused, not undefined.
+TEST(PlanCheck, SizesThatOverflowAreRefused) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  Index value = t.plan.constant(3);
+  for (int i = 0; i < 7; ++i) value = t.plan.binary(ExprOp::mul, value, value);
+  t.plan.resources[t.result].bytes = t.plan.binary(ExprOp::max, value, t.plan.constant(int64_t{1} << 50));
+  Device device = Device::null(nullptr);
+  const auto graph = GraphInstance::create(device, t.plan.view(), {});
+  ASSERT_FALSE(graph);
+  EXPECT_EQ(graph.error().code, ErrorCode::unsupported);
+}
+
 TEST(PlanCheck, SharedOperandsCostNothing) {
   test::ClearAndCopy t = test::clear_and_copy();
   Index value = t.plan.constant(0);
