@@ -183,12 +183,13 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (diagnostics.has_errors()) return result;
   result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
 
-  // Blocks become kernels, one by one or several together.
-  const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
-  if (diagnostics.has_errors()) return result;
   // Features that only remove passes become conditions.
   for (size_t g = 0; g < result.program.graphs.size(); ++g)
     result.program = merge_features(std::move(result.program), dsl::GraphId{g}, options.fixed_features);
+
+  // Blocks become kernels, one by one or several together.
+  const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
+  if (diagnostics.has_errors()) return result;
 
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
   if (options.list_tasks || options.shards > 0) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "runtime/typed.h"
@@ -71,7 +72,16 @@ inline constexpr int32_t DEBUG_FORWARD = 14;
 inline constexpr int32_t DEBUG_FOG = 15;
 inline constexpr int32_t DEBUG_THROUGH = 16;
 inline constexpr int32_t DEBUG_FEATURES = 17;
-inline constexpr int32_t DEBUG_COUNT = 18;
+inline constexpr int32_t DEBUG_KERNELS = 18;
+inline constexpr int32_t DEBUG_COUNT = 19;
+
+namespace spectrum {
+// passes/lighting/lighting.rg:11
+struct light_features {
+  static constexpr std::string_view features[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};  // by bit of a mask
+  static constexpr uint32_t kernels[] = {0x1, 0x16, 0xc1, 0x9f, 0x1a1, 0xb7, 0x1bf, 0x1ff};  // the masks they serve, in the order in which they are tried
+};
+}  // namespace spectrum
 
 struct View {  // passes/view/view.rg:6
   rg::mat4 world_to_view = {};
@@ -278,7 +288,7 @@ static_assert(offsetof(DrawArguments, instance_count) == 4);
 static_assert(offsetof(DrawArguments, first_vertex) == 8);
 static_assert(offsetof(DrawArguments, first_instance) == 12);
 
-struct PropDraw {  // passes/geometry/geometry.rg:5
+struct PropDraw {  // passes/geometry/geometry.rg:7
   rg::mat3x4 model = {};
   rg::mat3x4 previous = {};
   rg::vec3 tint = {};
@@ -294,12 +304,12 @@ static_assert(offsetof(PropDraw, swing) == 108);
 static_assert(offsetof(PropDraw, swing_before) == 112);
 static_assert(offsetof(PropDraw, sky) == 116);
 
-struct GlassDraw {  // passes/geometry/geometry.rg:6
+struct GlassDraw {  // passes/geometry/geometry.rg:8
   uint32_t instance = 0;
 };
 static_assert(sizeof(GlassDraw) == 4);
 
-struct HologramDraw {  // passes/geometry/geometry.rg:7
+struct HologramDraw {  // passes/geometry/geometry.rg:9
   rg::mat4 model_to_clip = {};
   rg::vec4 color = {};
 };
@@ -346,7 +356,7 @@ static_assert(offsetof(Fog, jitter) == 80);
 static_assert(offsetof(Fog, spare) == 92);
 static_assert(offsetof(Fog, count) == 96);
 
-struct Exposure {  // passes/post/post.rg:6
+struct Exposure {  // passes/post/post.rg:9
   float scale = 0;
   float log_luminance = 0;
   float target = 0;
@@ -375,14 +385,14 @@ struct Imports {
   rg::Required<rg::ImportedBuffer> scene_prop_indices;  // passes/scene/scene.rg:111
   rg::Required<rg::ImportedImage> scene_albedo_maps;  // passes/scene/scene.rg:112
   rg::Required<rg::ImportedImage> scene_surface_maps;  // passes/scene/scene.rg:113
-  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:18
+  rg::Required<rg::ImportedImage> backbuffer;  // passes.rg:20
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View camera = {};  // passes.rg:18
-  Fog fog = {};  // passes.rg:18
-  LampViews lamps = {};  // passes.rg:18
+  View camera = {};  // passes.rg:20
+  Fog fog = {};  // passes.rg:20
+  LampViews lamps = {};  // passes.rg:20
 };
 
 // Latched when the frame is recorded.
@@ -390,21 +400,26 @@ struct Conditions {
   bool lamps_moved = {};
 };
 
+// Which variants of shaders this frame runs, and which passes.
+struct Features {
+  bool holograms = false;  // passes.rg:18
+};
+
 // ---- passes the host records: what a recorder's methods are given
 
-struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:73
+struct SunShadowPropsPass : rg::RasterRecording {  // passes.rg:93
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct DepthPropsPass : rg::RasterRecording {  // passes.rg:123
+struct DepthPropsPass : rg::RasterRecording {  // passes.rg:143
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:224
+struct GbufferPropsPass : rg::RasterRecording {  // passes.rg:245
   void push(const PropDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT, per_draw); }
 };
-struct TransparentPass : rg::RasterRecording {  // passes.rg:265
+struct TransparentPass : rg::RasterRecording {  // passes.rg:287
   void push(const GlassDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct HologramPass : rg::RasterRecording {  // passes.rg:282
+struct HologramPass : rg::RasterRecording {  // passes.rg:305
   void push(const HologramDraw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -422,79 +437,86 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 57, .shaders = 35, .pipelines = 52, .barrier_groups = 31, .image_barriers = 77, .buffer_barriers = 27, .batches = 1,
-     .heap_bytes = 19021056, .unaliased_bytes = 24707072, .lower_bound_bytes = 19021056};
+    {.passes = 64, .shaders = 42, .pipelines = 59, .barrier_groups = 29, .image_barriers = 65, .buffer_barriers = 29, .batches = 1,
+     .heap_bytes = 19117312, .unaliased_bytes = 23557120, .lower_bound_bytes = 19116288};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
-    {.group = 1},  // mesh_cull_clear
+    {.group = 1},  // mesh_cull_world_clear
     {.position = 1, .group = 2, .barriers = 2},  // mesh_cull
-    {.position = 2, .group = 3, .barriers = 5},  // sun_shadow_world
-    {.position = 3, .group = 3},  // lamp_cull
-    {.position = 4, .group = 3},  // depth_world
-    {.position = 5, .group = 4, .barriers = 4},  // sun_shadow_props
-    {.position = 6, .group = 4},  // lamp_shadow_world_0
-    {.position = 7, .group = 4},  // lamp_shadow_world_1
-    {.position = 8, .group = 4},  // lamp_shadow_world_2
-    {.position = 9, .group = 4},  // depth_props
-    {.position = 10, .group = 5, .barriers = 4},  // lamp_shadow_world_3
-    {.position = 11, .group = 5},  // lamp_shadow_world_4
-    {.position = 12, .group = 5},  // depth_range_first
-    {.position = 13, .group = 6, .barriers = 3},  // lamp_shadow_world_5
-    {.position = 14, .group = 6},  // lamp_shadow_world_6
-    {.position = 15, .group = 6},  // depth_range_down_1
-    {.position = 16, .group = 7, .barriers = 3},  // lamp_shadow_world_7
-    {.position = 17, .group = 7},  // froxel_fog_clusters_cull
-    {.position = 18, .group = 7},  // depth_range_down_2
-    {.position = 19, .group = 8, .barriers = 3},  // froxel_fog_chain_inject
-    {.position = 20, .group = 8},  // depth_range_down_3
-    {.position = 21, .group = 9, .barriers = 9},  // froxel_fog_chain_light
-    {.position = 22, .group = 9},  // depth_range_down_4
-    {.position = 23, .group = 10, .barriers = 5},  // froxel_fog_chain_integrate
-    {.position = 24, .group = 10},  // depth_range_down_5
-    {.position = 25, .group = 11, .barriers = 1},  // depth_range_down_6
-    {.position = 26, .group = 12, .barriers = 7},  // depth_range_down_7
-    {.position = 27, .group = 12},  // zbin_build_clear
-    {.position = 28, .group = 12},  // light_occlusion_clear
-    {.position = 29, .group = 12},  // gbuffer_world
-    {.position = 30, .group = 13, .barriers = 9},  // zbin_build
-    {.position = 31, .group = 13},  // light_occlusion
-    {.position = 32, .group = 13},  // gbuffer_props
-    {.position = 33, .group = 14, .barriers = 5},  // zbin_pack
-    {.position = 34, .group = 14},  // light_cull
-    {.position = 35, .group = 14},  // tile_cull
-    {.position = 36, .group = 14},  // ambient_occlusion
-    {.position = 37, .group = 15, .barriers = 10},  // deferred_light
-    {.position = 38, .group = 16, .barriers = 2},  // transparent
-    {.position = 39, .group = 17, .barriers = 1},  // hologram
-    {.position = 40, .group = 18, .barriers = 3},  // resolve_temporal
-    {.position = 41, .group = 19, .barriers = 3},  // bloom_first
-    {.position = 42, .group = 20, .barriers = 1},  // bloom_down_1
-    {.position = 43, .group = 21, .barriers = 1},  // bloom_down_2
-    {.position = 44, .group = 22, .barriers = 3},  // debug_view
-    {.position = 45, .group = 22},  // luminance_clear
-    {.position = 46, .group = 22},  // bloom_down_3
-    {.position = 47, .group = 23, .barriers = 2},  // luminance
-    {.position = 48, .group = 23},  // bloom_down_4
-    {.position = 49, .group = 24, .barriers = 2},  // expose
-    {.position = 50, .group = 24},  // bloom_down_5
-    {.position = 51, .group = 25, .barriers = 2},  // bloom_up_1
-    {.position = 52, .group = 26, .barriers = 2},  // bloom_up_2
-    {.position = 53, .group = 27, .barriers = 2},  // bloom_up_3
-    {.position = 54, .group = 28, .barriers = 2},  // bloom_up_4
-    {.position = 55, .group = 29, .barriers = 2},  // bloom_up_5
-    {.position = 56, .group = 30, .barriers = 4},  // tonemap
+    {.position = 2, .group = 2},  // lamp_cull
+    {.position = 3, .group = 3, .barriers = 6},  // sun_shadow_world
+    {.position = 4, .group = 3},  // sun_shadow_props
+    {.position = 5, .group = 3},  // lamp_shadow_world_0
+    {.position = 6, .group = 3},  // lamp_shadow_world_1
+    {.position = 7, .group = 3},  // lamp_shadow_world_2
+    {.position = 8, .group = 3},  // depth_world
+    {.position = 9, .group = 3},  // depth_props
+    {.position = 10, .group = 4, .barriers = 4},  // lamp_shadow_world_3
+    {.position = 11, .group = 4},  // lamp_shadow_world_4
+    {.position = 12, .group = 4},  // depth_range_first
+    {.position = 13, .group = 5, .barriers = 3},  // lamp_shadow_world_5
+    {.position = 14, .group = 5},  // lamp_shadow_world_6
+    {.position = 15, .group = 5},  // depth_range_down_1
+    {.position = 16, .group = 6, .barriers = 3},  // lamp_shadow_world_7
+    {.position = 17, .group = 6},  // froxel_fog_clusters_cull
+    {.position = 18, .group = 6},  // depth_range_down_2
+    {.position = 19, .group = 7, .barriers = 9},  // froxel_fog_merged
+    {.position = 20, .group = 7},  // depth_range_down_3
+    {.position = 21, .group = 8, .barriers = 1},  // depth_range_down_4
+    {.position = 22, .group = 9, .barriers = 1},  // depth_range_down_5
+    {.position = 23, .group = 10, .barriers = 1},  // depth_range_down_6
+    {.position = 24, .group = 11, .barriers = 2},  // depth_range_down_7
+    {.position = 25, .group = 11},  // zbin_build_clear
+    {.position = 26, .group = 11},  // light_occlusion_clear
+    {.position = 27, .group = 12, .barriers = 9},  // zbin_build
+    {.position = 28, .group = 12},  // light_occlusion
+    {.position = 29, .group = 12},  // tile_cull
+    {.position = 30, .group = 12},  // gbuffer_world
+    {.position = 31, .group = 12},  // gbuffer_props
+    {.position = 32, .group = 12},  // deferred_light_reset
+    {.position = 33, .group = 13, .barriers = 8},  // zbin_pack
+    {.position = 34, .group = 13},  // light_cull
+    {.position = 35, .group = 13},  // ambient_occlusion
+    {.position = 36, .group = 13},  // deferred_light_classify
+    {.position = 37, .group = 14, .barriers = 12},  // deferred_light_0
+    {.position = 38, .group = 14},  // deferred_light_1
+    {.position = 39, .group = 14},  // deferred_light_2
+    {.position = 40, .group = 14},  // deferred_light_3
+    {.position = 41, .group = 14},  // deferred_light_4
+    {.position = 42, .group = 14},  // deferred_light_5
+    {.position = 43, .group = 14},  // deferred_light_6
+    {.position = 44, .group = 14},  // deferred_light_7
+    {.position = 45, .group = 15, .barriers = 2},  // transparent
+    {.position = 46, .group = 15},  // hologram
+    {.position = 47, .group = 16, .barriers = 3},  // resolve_temporal
+    {.position = 48, .group = 17, .barriers = 3},  // bloom_first
+    {.position = 49, .group = 18, .barriers = 1},  // bloom_down_1
+    {.position = 50, .group = 19, .barriers = 1},  // bloom_down_2
+    {.position = 51, .group = 20, .barriers = 1},  // bloom_down_3
+    {.position = 52, .group = 21, .barriers = 3},  // debug_view
+    {.position = 53, .group = 21},  // luminance_clear
+    {.position = 54, .group = 21},  // bloom_down_4
+    {.position = 55, .group = 22, .barriers = 2},  // luminance
+    {.position = 56, .group = 22},  // bloom_down_5
+    {.position = 57, .group = 23, .barriers = 3},  // expose
+    {.position = 58, .group = 23},  // bloom_up_1
+    {.position = 59, .group = 24, .barriers = 2},  // bloom_up_2
+    {.position = 60, .group = 25, .barriers = 2},  // bloom_up_3
+    {.position = 61, .group = 26, .barriers = 2},  // bloom_up_4
+    {.position = 62, .group = 27, .barriers = 2},  // bloom_up_5
+    {.position = 63, .group = 28, .barriers = 4},  // tonemap
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
-    {},  // mesh_cull_clear
-    {.instructions = 142, .alu = 29, .loads = 7, .stores = 4, .atomics = 3, .branches = 10, .live_scalars = 39},  // mesh_cull
-    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
+    {},  // mesh_cull_world_clear
+    {.instructions = 174, .alu = 47, .loads = 7, .stores = 2, .atomics = 3, .branches = 12, .live_scalars = 43},  // mesh_cull
     {.instructions = 110, .alu = 33, .loads = 3, .stores = 1, .branches = 7, .live_scalars = 51},  // lamp_cull
-    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // depth_world
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
     {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // sun_shadow_props
     {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_0
     {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_1
     {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_2
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // depth_world
     {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // depth_props
     {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_3
     {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_4
@@ -506,40 +528,47 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     // froxel_fog_clusters_cull
     {.instructions = 305, .alu = 87, .loads = 11, .stores = 2, .atomics = 2, .branches = 18, .shared_bytes = 68, .live_scalars = 76},
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_2
-    {.instructions = 174, .alu = 58, .samples = 1, .loads = 14, .stores = 1, .branches = 4, .live_scalars = 45},  // froxel_fog_chain_inject
+    {.instructions = 1765, .alu = 673, .samples = 12, .loads = 38, .stores = 3, .branches = 113, .live_scalars = 115},  // froxel_fog_merged
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_3
-    {.instructions = 1374, .alu = 512, .samples = 12, .loads = 39, .stores = 3, .branches = 82, .live_scalars = 82},  // froxel_fog_chain_light
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_4
-    {.instructions = 162, .alu = 54, .samples = 2, .loads = 5, .stores = 2, .branches = 6, .live_scalars = 29},  // froxel_fog_chain_integrate
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_5
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_6
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_7
     {},  // zbin_build_clear
     {},  // light_occlusion_clear
-    {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
     {.instructions = 55, .alu = 11, .loads = 3, .atomics = 2, .branches = 4, .live_scalars = 34},  // zbin_build
     {.instructions = 188, .alu = 61, .samples = 1, .loads = 7, .atomics = 1, .branches = 12, .live_scalars = 36},  // light_occlusion
+    // tile_cull
+    {.instructions = 417, .alu = 137, .samples = 1, .loads = 12, .stores = 5, .atomics = 4, .branches = 25, .shared_bytes = 76, .live_scalars = 60},
+    {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
     {.instructions = 167, .alu = 47, .loads = 9, .branches = 7, .live_scalars = 41},  // gbuffer_props
+    {},  // deferred_light_reset
     {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
     // light_cull
     {.instructions = 421, .alu = 161, .samples = 1, .loads = 9, .stores = 2, .atomics = 2, .branches = 25, .shared_bytes = 128, .live_scalars = 65},
-    // tile_cull
-    {.instructions = 417, .alu = 137, .samples = 1, .loads = 12, .stores = 5, .atomics = 4, .branches = 25, .shared_bytes = 76, .live_scalars = 60},
     {.instructions = 198, .alu = 86, .samples = 3, .loads = 8, .stores = 2, .branches = 8, .live_scalars = 39},  // ambient_occlusion
-    {.instructions = 2661, .alu = 1220, .samples = 22, .loads = 57, .stores = 2, .branches = 143, .live_scalars = 119},  // deferred_light
+    {.instructions = 104, .alu = 26, .loads = 1, .stores = 4, .atomics = 1, .branches = 8, .live_scalars = 12},  // deferred_light_classify
+    {.instructions = 1215, .alu = 544, .samples = 14, .loads = 39, .stores = 2, .branches = 58, .live_scalars = 93},  // deferred_light_0
+    {.instructions = 2143, .alu = 877, .samples = 19, .loads = 58, .stores = 2, .branches = 127, .live_scalars = 105},  // deferred_light_1
+    {.instructions = 2134, .alu = 934, .samples = 14, .loads = 58, .stores = 2, .branches = 122, .live_scalars = 104},  // deferred_light_2
+    {.instructions = 2284, .alu = 950, .samples = 20, .loads = 58, .stores = 2, .branches = 133, .live_scalars = 109},  // deferred_light_3
+    {.instructions = 2250, .alu = 979, .samples = 16, .loads = 58, .stores = 2, .branches = 127, .live_scalars = 117},  // deferred_light_4
+    {.instructions = 2410, .alu = 1052, .samples = 21, .loads = 58, .stores = 2, .branches = 135, .live_scalars = 117},  // deferred_light_5
+    {.instructions = 2542, .alu = 1113, .samples = 22, .loads = 58, .stores = 2, .branches = 141, .live_scalars = 119},  // deferred_light_6
+    {.instructions = 2684, .alu = 1231, .samples = 22, .loads = 58, .stores = 2, .branches = 144, .live_scalars = 119},  // deferred_light_7
     {.instructions = 2115, .alu = 1066, .samples = 14, .loads = 30, .branches = 106, .live_scalars = 108},  // transparent
     {},  // hologram
     {.instructions = 217, .alu = 75, .samples = 6, .loads = 7, .stores = 1, .branches = 8, .live_scalars = 34},  // resolve_temporal
     {.instructions = 69, .alu = 23, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 19},  // bloom_first
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_1
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_2
-    {.instructions = 631, .alu = 224, .samples = 12, .loads = 27, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
-    {},  // luminance_clear
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_3
-    {.instructions = 58, .alu = 14, .samples = 1, .atomics = 2, .branches = 4, .shared_bytes = 512, .live_scalars = 6},  // luminance
+    {.instructions = 662, .alu = 245, .samples = 13, .loads = 28, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
+    {},  // luminance_clear
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_4
-    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
+    {.instructions = 85, .alu = 17, .samples = 1, .atomics = 2, .branches = 7, .shared_bytes = 512, .live_scalars = 7},  // luminance
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_5
+    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_1
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_2
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_3
@@ -548,65 +577,65 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 76, .alu = 29, .samples = 3, .loads = 4, .branches = 3, .live_scalars = 11},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 17, .last = 38},  // scene_lights
+    {.bytes = 256, .first = 17, .last = 45},  // scene_lights
     {.bytes = 256, .first = 17, .last = 19},  // scene_fog_volumes
-    {.bytes = 256, .first = 1, .last = 38},  // scene_instances
-    {.bytes = 256, .first = 29, .last = 38},  // scene_materials
-    {.bytes = 256, .first = 2, .last = 38},  // scene_vertices
-    {.bytes = 256, .first = 2, .last = 38},  // scene_indices
-    {.bytes = 256, .first = 5, .last = 32},  // scene_props
-    {.bytes = 256, .first = 5, .last = 32},  // scene_prop_indices
-    {.bytes = 11206656, .first = 19, .last = 38},  // scene_albedo_maps
-    {.bytes = 11206656, .first = 29, .last = 29},  // scene_surface_maps
-    {.bytes = 983040, .first = 56, .last = 56},  // backbuffer
-    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 29},  // world_draws
-    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 2},  // sun_draws
+    {.bytes = 256, .first = 1, .last = 45},  // scene_instances
+    {.bytes = 256, .first = 30, .last = 45},  // scene_materials
+    {.bytes = 256, .first = 3, .last = 45},  // scene_vertices
+    {.bytes = 256, .first = 3, .last = 45},  // scene_indices
+    {.bytes = 256, .first = 4, .last = 31},  // scene_props
+    {.bytes = 256, .first = 4, .last = 31},  // scene_prop_indices
+    {.bytes = 11206656, .first = 19, .last = 45},  // scene_albedo_maps
+    {.bytes = 11206656, .first = 30, .last = 30},  // scene_surface_maps
+    {.bytes = 983040, .first = 63, .last = 63},  // backbuffer
+    {.bytes = 16384, .offset = 18153472, .transient = true, .first = 1, .last = 30},  // world_draws
+    {.bytes = 16384, .offset = 10420224, .transient = true, .first = 1, .last = 3},  // sun_draws
     {.bytes = 256, .last = 1},  // cull_counts
-    {.bytes = 9437184, .transient = true, .first = 2, .last = 38},  // sun_shadow
-    {.bytes = 131072, .offset = 12992512, .transient = true, .first = 3, .last = 16},  // lamp_draws
-    {.bytes = 2097152, .first = 6, .last = 38},  // lamp_shadow
-    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 23, .last = 44},  // scattered
-    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 23, .last = 44},  // transmittance
+    {.bytes = 9437184, .transient = true, .first = 3, .last = 45},  // sun_shadow
+    {.bytes = 131072, .offset = 12992512, .transient = true, .first = 2, .last = 16},  // lamp_draws
+    {.bytes = 2097152, .first = 5, .last = 45},  // lamp_shadow
+    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 19, .last = 52},  // scattered
+    {.bytes = 327680, .offset = 17825792, .transient = true, .first = 19, .last = 52},  // transmittance
     {.bytes = 147456, .offset = 12845056, .transient = true, .first = 17, .last = 19},  // froxel_fog_cluster_volumes
-    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 17, .last = 21},  // froxel_fog_cluster_lights
-    {.bytes = 327680, .offset = 13434880, .transient = true, .first = 19, .last = 21},  // froxel_fog_density
-    {.bytes = 589824, .offset = 12845056, .transient = true, .first = 21, .last = 23},  // froxel_fog_inscatter
-    {.bytes = 327680, .offset = 13762560, .transient = true, .first = 21, .last = 23},  // froxel_fog_extinction
-    {.bytes = 2359296, .first = 21, .last = 21},  // froxel_fog_memory
-    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 4, .last = 44},  // depth
+    {.bytes = 2359296, .offset = 10485760, .transient = true, .first = 17, .last = 19},  // froxel_fog_cluster_lights
+    {.bytes = 2359296, .first = 19, .last = 19},  // froxel_fog_memory
+    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 8, .last = 52},  // depth
     {.bytes = 65536, .offset = 10420224, .transient = true, .first = 12, .last = 34},  // depth_range
-    {.bytes = 32768, .offset = 10485760, .transient = true, .first = 27, .last = 33},  // zbin_min
-    {.bytes = 32768, .offset = 10518528, .transient = true, .first = 27, .last = 33},  // zbin_max
-    {.bytes = 32768, .offset = 18988288, .transient = true, .first = 33, .last = 44},  // zbins
-    {.bytes = 256, .offset = 10551296, .transient = true, .first = 28, .last = 34},  // lights_seen
-    {.bytes = 230400, .offset = 18284544, .transient = true, .first = 34, .last = 44},  // tile_lights
-    {.bytes = 230400, .offset = 18514944, .transient = true, .first = 34, .last = 44},  // forward_lights
-    {.bytes = 242944, .offset = 18745344, .transient = true, .first = 35, .last = 44},  // tile_records
-    {.bytes = 3840, .first = 35, .last = 44},  // tile_features
-    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 29, .last = 44},  // albedo
-    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 29, .last = 44},  // normal
-    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 29, .last = 44},  // material
-    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 29, .last = 44},  // emissive
-    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 29, .last = 44},  // velocity
-    {.bytes = 131072, .offset = 18153472, .transient = true, .first = 36, .last = 44},  // occlusion
-    {.bytes = 1900544, .offset = 10420224, .transient = true, .first = 37, .last = 47},  // hdr
-    {.bytes = 983040, .transient = true, .first = 44, .last = 56},  // debug_image
-    {.bytes = 512, .offset = 1638400, .transient = true, .first = 45, .last = 49},  // histogram
-    {.bytes = 512, .first = 49, .last = 56},  // exposure
-    {.bytes = 3801088, .first = 40, .last = 56},  // color
-    {.bytes = 655360, .offset = 983040, .transient = true, .first = 41, .last = 56},  // bloom
+    {.bytes = 32768, .offset = 10485760, .transient = true, .first = 25, .last = 33},  // zbin_min
+    {.bytes = 32768, .offset = 10518528, .transient = true, .first = 25, .last = 33},  // zbin_max
+    {.bytes = 32768, .offset = 18614272, .transient = true, .first = 33, .last = 52},  // zbins
+    {.bytes = 256, .offset = 10551296, .transient = true, .first = 26, .last = 34},  // lights_seen
+    {.bytes = 230400, .offset = 18153472, .transient = true, .first = 34, .last = 52},  // tile_lights
+    {.bytes = 230400, .offset = 18383872, .transient = true, .first = 34, .last = 52},  // forward_lights
+    {.bytes = 242944, .offset = 18874368, .transient = true, .first = 29, .last = 52},  // tile_records
+    {.bytes = 3840, .first = 29, .last = 52},  // tile_features
+    {.bytes = 65536, .offset = 18808832, .transient = true, .first = 36, .last = 52},  // tile_kernels
+    {.bytes = 983040, .offset = 12320768, .transient = true, .first = 30, .last = 52},  // albedo
+    {.bytes = 983040, .offset = 13303808, .transient = true, .first = 30, .last = 52},  // normal
+    {.bytes = 983040, .offset = 14286848, .transient = true, .first = 30, .last = 52},  // material
+    {.bytes = 983040, .offset = 15269888, .transient = true, .first = 30, .last = 52},  // emissive
+    {.bytes = 983040, .offset = 16252928, .transient = true, .first = 30, .last = 52},  // velocity
+    {.bytes = 131072, .offset = 18677760, .transient = true, .first = 35, .last = 52},  // occlusion
+    {.bytes = 1900544, .offset = 10420224, .transient = true, .first = 37, .last = 55},  // hdr
+    {.bytes = 983040, .offset = 655360, .transient = true, .first = 52, .last = 63},  // debug_image
+    {.bytes = 512, .offset = 1638400, .transient = true, .first = 53, .last = 57},  // histogram
+    {.bytes = 512, .first = 57, .last = 63},  // exposure
+    {.bytes = 3801088, .first = 47, .last = 63},  // color
+    {.bytes = 655360, .transient = true, .first = 48, .last = 63},  // bloom
+    {.bytes = 256, .offset = 18676480, .transient = true, .first = 32, .last = 44},  // deferred_light_arguments
+    {.bytes = 29440, .offset = 18647040, .transient = true, .first = 36, .last = 44},  // deferred_light_tiles
 };
 // Indices of Plan::passes.
 namespace pass {
-inline constexpr rg::Index mesh_cull_clear = 0;
+inline constexpr rg::Index mesh_cull_world_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index sun_shadow_world = 2;
-inline constexpr rg::Index lamp_cull = 3;
-inline constexpr rg::Index depth_world = 4;
-inline constexpr rg::Index sun_shadow_props = 5;
-inline constexpr rg::Index lamp_shadow_world_0 = 6;
-inline constexpr rg::Index lamp_shadow_world_1 = 7;
-inline constexpr rg::Index lamp_shadow_world_2 = 8;
+inline constexpr rg::Index lamp_cull = 2;
+inline constexpr rg::Index sun_shadow_world = 3;
+inline constexpr rg::Index sun_shadow_props = 4;
+inline constexpr rg::Index lamp_shadow_world_0 = 5;
+inline constexpr rg::Index lamp_shadow_world_1 = 6;
+inline constexpr rg::Index lamp_shadow_world_2 = 7;
+inline constexpr rg::Index depth_world = 8;
 inline constexpr rg::Index depth_props = 9;
 inline constexpr rg::Index lamp_shadow_world_3 = 10;
 inline constexpr rg::Index lamp_shadow_world_4 = 11;
@@ -617,44 +646,51 @@ inline constexpr rg::Index depth_range_down_1 = 15;
 inline constexpr rg::Index lamp_shadow_world_7 = 16;
 inline constexpr rg::Index froxel_fog_clusters_cull = 17;
 inline constexpr rg::Index depth_range_down_2 = 18;
-inline constexpr rg::Index froxel_fog_chain_inject = 19;
+inline constexpr rg::Index froxel_fog_merged = 19;
 inline constexpr rg::Index depth_range_down_3 = 20;
-inline constexpr rg::Index froxel_fog_chain_light = 21;
-inline constexpr rg::Index depth_range_down_4 = 22;
-inline constexpr rg::Index froxel_fog_chain_integrate = 23;
-inline constexpr rg::Index depth_range_down_5 = 24;
-inline constexpr rg::Index depth_range_down_6 = 25;
-inline constexpr rg::Index depth_range_down_7 = 26;
-inline constexpr rg::Index zbin_build_clear = 27;
-inline constexpr rg::Index light_occlusion_clear = 28;
-inline constexpr rg::Index gbuffer_world = 29;
-inline constexpr rg::Index zbin_build = 30;
-inline constexpr rg::Index light_occlusion = 31;
-inline constexpr rg::Index gbuffer_props = 32;
+inline constexpr rg::Index depth_range_down_4 = 21;
+inline constexpr rg::Index depth_range_down_5 = 22;
+inline constexpr rg::Index depth_range_down_6 = 23;
+inline constexpr rg::Index depth_range_down_7 = 24;
+inline constexpr rg::Index zbin_build_clear = 25;
+inline constexpr rg::Index light_occlusion_clear = 26;
+inline constexpr rg::Index zbin_build = 27;
+inline constexpr rg::Index light_occlusion = 28;
+inline constexpr rg::Index tile_cull = 29;
+inline constexpr rg::Index gbuffer_world = 30;
+inline constexpr rg::Index gbuffer_props = 31;
+inline constexpr rg::Index deferred_light_reset = 32;
 inline constexpr rg::Index zbin_pack = 33;
 inline constexpr rg::Index light_cull = 34;
-inline constexpr rg::Index tile_cull = 35;
-inline constexpr rg::Index ambient_occlusion = 36;
-inline constexpr rg::Index deferred_light = 37;
-inline constexpr rg::Index transparent = 38;
-inline constexpr rg::Index hologram = 39;
-inline constexpr rg::Index resolve_temporal = 40;
-inline constexpr rg::Index bloom_first = 41;
-inline constexpr rg::Index bloom_down_1 = 42;
-inline constexpr rg::Index bloom_down_2 = 43;
-inline constexpr rg::Index debug_view = 44;
-inline constexpr rg::Index luminance_clear = 45;
-inline constexpr rg::Index bloom_down_3 = 46;
-inline constexpr rg::Index luminance = 47;
-inline constexpr rg::Index bloom_down_4 = 48;
-inline constexpr rg::Index expose = 49;
-inline constexpr rg::Index bloom_down_5 = 50;
-inline constexpr rg::Index bloom_up_1 = 51;
-inline constexpr rg::Index bloom_up_2 = 52;
-inline constexpr rg::Index bloom_up_3 = 53;
-inline constexpr rg::Index bloom_up_4 = 54;
-inline constexpr rg::Index bloom_up_5 = 55;
-inline constexpr rg::Index tonemap = 56;
+inline constexpr rg::Index ambient_occlusion = 35;
+inline constexpr rg::Index deferred_light_classify = 36;
+inline constexpr rg::Index deferred_light_0 = 37;
+inline constexpr rg::Index deferred_light_1 = 38;
+inline constexpr rg::Index deferred_light_2 = 39;
+inline constexpr rg::Index deferred_light_3 = 40;
+inline constexpr rg::Index deferred_light_4 = 41;
+inline constexpr rg::Index deferred_light_5 = 42;
+inline constexpr rg::Index deferred_light_6 = 43;
+inline constexpr rg::Index deferred_light_7 = 44;
+inline constexpr rg::Index transparent = 45;
+inline constexpr rg::Index hologram = 46;
+inline constexpr rg::Index resolve_temporal = 47;
+inline constexpr rg::Index bloom_first = 48;
+inline constexpr rg::Index bloom_down_1 = 49;
+inline constexpr rg::Index bloom_down_2 = 50;
+inline constexpr rg::Index bloom_down_3 = 51;
+inline constexpr rg::Index debug_view = 52;
+inline constexpr rg::Index luminance_clear = 53;
+inline constexpr rg::Index bloom_down_4 = 54;
+inline constexpr rg::Index luminance = 55;
+inline constexpr rg::Index bloom_down_5 = 56;
+inline constexpr rg::Index expose = 57;
+inline constexpr rg::Index bloom_up_1 = 58;
+inline constexpr rg::Index bloom_up_2 = 59;
+inline constexpr rg::Index bloom_up_3 = 60;
+inline constexpr rg::Index bloom_up_4 = 61;
+inline constexpr rg::Index bloom_up_5 = 62;
+inline constexpr rg::Index tonemap = 63;
 }
 
 // Indices of Plan::resources.
@@ -680,43 +716,47 @@ inline constexpr rg::Index scattered = 17;
 inline constexpr rg::Index transmittance = 18;
 inline constexpr rg::Index froxel_fog_cluster_volumes = 19;
 inline constexpr rg::Index froxel_fog_cluster_lights = 20;
-inline constexpr rg::Index froxel_fog_density = 21;
-inline constexpr rg::Index froxel_fog_inscatter = 22;
-inline constexpr rg::Index froxel_fog_extinction = 23;
-inline constexpr rg::Index froxel_fog_memory = 24;
-inline constexpr rg::Index depth = 25;
-inline constexpr rg::Index depth_range = 26;
-inline constexpr rg::Index zbin_min = 27;
-inline constexpr rg::Index zbin_max = 28;
-inline constexpr rg::Index zbins = 29;
-inline constexpr rg::Index lights_seen = 30;
-inline constexpr rg::Index tile_lights = 31;
-inline constexpr rg::Index forward_lights = 32;
-inline constexpr rg::Index tile_records = 33;
-inline constexpr rg::Index tile_features = 34;
-inline constexpr rg::Index albedo = 35;
-inline constexpr rg::Index normal = 36;
-inline constexpr rg::Index material = 37;
-inline constexpr rg::Index emissive = 38;
-inline constexpr rg::Index velocity = 39;
-inline constexpr rg::Index occlusion = 40;
-inline constexpr rg::Index hdr = 41;
-inline constexpr rg::Index debug_image = 42;
-inline constexpr rg::Index histogram = 43;
-inline constexpr rg::Index exposure = 44;
-inline constexpr rg::Index color = 45;
-inline constexpr rg::Index bloom = 46;
+inline constexpr rg::Index froxel_fog_memory = 21;
+inline constexpr rg::Index depth = 22;
+inline constexpr rg::Index depth_range = 23;
+inline constexpr rg::Index zbin_min = 24;
+inline constexpr rg::Index zbin_max = 25;
+inline constexpr rg::Index zbins = 26;
+inline constexpr rg::Index lights_seen = 27;
+inline constexpr rg::Index tile_lights = 28;
+inline constexpr rg::Index forward_lights = 29;
+inline constexpr rg::Index tile_records = 30;
+inline constexpr rg::Index tile_features = 31;
+inline constexpr rg::Index tile_kernels = 32;
+inline constexpr rg::Index albedo = 33;
+inline constexpr rg::Index normal = 34;
+inline constexpr rg::Index material = 35;
+inline constexpr rg::Index emissive = 36;
+inline constexpr rg::Index velocity = 37;
+inline constexpr rg::Index occlusion = 38;
+inline constexpr rg::Index hdr = 39;
+inline constexpr rg::Index debug_image = 40;
+inline constexpr rg::Index histogram = 41;
+inline constexpr rg::Index exposure = 42;
+inline constexpr rg::Index color = 43;
+inline constexpr rg::Index bloom = 44;
+inline constexpr rg::Index deferred_light_arguments = 45;
+inline constexpr rg::Index deferred_light_tiles = 46;
 }
 
-class Frame {
+class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<Frame> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   template <FrameRecorder R>
-  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, R& recorder) {
+  rg::Status execute(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features, R& recorder) {
     static constexpr rg::RecordFunction callbacks[] = {
         record<R, SunShadowPropsPass, [](R& r, SunShadowPropsPass& pass) { r.sun_shadow_props(pass); }>,
         record<R, DepthPropsPass, [](R& r, DepthPropsPass& pass) { r.depth_props(pass); }>,
@@ -724,15 +764,13 @@ class Frame {
         record<R, TransparentPass, [](R& r, TransparentPass& pass) { r.transparent(pass); }>,
         record<R, HologramPass, [](R& r, HologramPass& pass) { r.hologram(pass); }>,
     };
-    return submit(imports, params, conditions, callbacks, &recorder);
+    return submit(imports, params, conditions, features, callbacks, &recorder);
   }
 
-  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:50
+  // `cull_counts` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:52
   rg::Result<std::span<const uint32_t>> cull_counts();
-  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:156
+  // `tile_features` of the last finished frame; waits for it. Valid until the next execute.  passes.rg:176
   rg::Result<std::span<const uint32_t>> tile_features();
-
-  rg::GraphInstance& instance() { return instance_; }
 
  private:
   template <class R, class Pass, auto method>
@@ -740,9 +778,9 @@ class Frame {
     Pass pass{{recording}};
     method(*static_cast<R*>(user), pass);
   }
-  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks, void* recorder);
-  explicit Frame(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  rg::Status submit(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features,
+                    const rg::RecordFunction* callbacks, void* recorder);
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace frame

@@ -4,30 +4,36 @@
 #include <array>
 #include <string_view>
 
-#include "shaders/passes_geometry_mesh_cull.comp.spv.h"
-#include "shaders/passes_geometry_sun_world.vert.spv.h"
+#include "shaders/rgc_mesh_cull.comp.spv.h"
 #include "shaders/passes_geometry_lamp_cull.comp.spv.h"
-#include "shaders/passes_geometry_depth_world.vert.spv.h"
+#include "shaders/passes_geometry_sun_world.vert.spv.h"
 #include "shaders/passes_geometry_sun_props.vert.spv.h"
 #include "shaders/passes_geometry_lamp_world.vert.spv.h"
+#include "shaders/passes_geometry_depth_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_props.vert.spv.h"
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
 #include "shaders/passes_fog_fog_cull.comp.spv.h"
-#include "shaders/passes_fog_fog_inject.comp.spv.h"
-#include "shaders/passes_fog_fog_light.comp.spv.h"
-#include "shaders/passes_fog_fog_integrate.comp.spv.h"
-#include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
-#include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
+#include "shaders/rgc_froxel_fog.merged.comp.spv.h"
 #include "shaders/passes_culling_zbin_build.comp.spv.h"
 #include "shaders/passes_culling_light_occlusion.comp.spv.h"
+#include "shaders/passes_culling_tile_cull.comp.spv.h"
+#include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
+#include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.frag.spv.h"
 #include "shaders/passes_culling_zbin_pack.comp.spv.h"
 #include "shaders/passes_culling_light_cull.comp.spv.h"
-#include "shaders/passes_culling_tile_cull.comp.spv.h"
 #include "shaders/passes_lighting_ambient_occlusion.comp.spv.h"
+#include "shaders/rgc_deferred_light_classify.comp.spv.h"
 #include "shaders/passes_lighting_deferred_light.comp.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.2.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.3.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.4.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.5.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.6.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.7.spv.h"
+#include "shaders/passes_lighting_deferred_light.comp.8.spv.h"
 #include "shaders/passes_lighting_transparent.vert.spv.h"
 #include "shaders/passes_lighting_transparent.frag.spv.h"
 #include "shaders/passes_post_resolve_temporal.comp.spv.h"
@@ -35,6 +41,7 @@
 #include "shaders/passes_post_bloom_down.comp.spv.h"
 #include "shaders/passes_debug_debug_view.comp.spv.h"
 #include "shaders/passes_post_luminance.comp.spv.h"
+#include "shaders/passes_post_luminance.comp.2.spv.h"
 #include "shaders/passes_post_expose.comp.spv.h"
 #include "shaders/passes_post_bloom_up.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
@@ -115,79 +122,95 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::mip, .a = 28, .b = 4},  // 65
     {.op = ExprOp::mip, .a = 27, .b = 48},  // 66
     {.op = ExprOp::mip, .a = 28, .b = 48},  // 67
-    {.op = ExprOp::constant, .value = 128},  // 68
-    {.op = ExprOp::mul, .b = 68},  // 69
-    {.op = ExprOp::constant, .value = 80},  // 70
-    {.op = ExprOp::mul, .b = 70},  // 71
+    {.op = ExprOp::constant, .value = 24},  // 68
+    {.op = ExprOp::mul, .a = 25, .b = 18},  // 69
+    {.op = ExprOp::constant, .value = 12},  // 70
+    {.op = ExprOp::constant, .value = 36},  // 71
     {.op = ExprOp::constant, .value = 48},  // 72
-    {.op = ExprOp::mul, .b = 72},  // 73
-    {.op = ExprOp::constant, .value = 4},  // 74
-    {.op = ExprOp::mul, .b = 74},  // 75
-    {.op = ExprOp::constant, .value = 32},  // 76
+    {.op = ExprOp::constant, .value = 60},  // 73
+    {.op = ExprOp::constant, .value = 72},  // 74
+    {.op = ExprOp::constant, .value = 84},  // 75
+    {.op = ExprOp::constant, .value = 128},  // 76
     {.op = ExprOp::mul, .b = 76},  // 77
-    {.op = ExprOp::constant, .value = 16},  // 78
-    {.op = ExprOp::mul, .a = 3, .b = 78},  // 79
-    {.op = ExprOp::mul, .a = 4, .b = 74},  // 80
-    {.op = ExprOp::mul, .a = 6, .b = 78},  // 81
-    {.op = ExprOp::mul, .a = 15, .b = 74},  // 82
-    {.op = ExprOp::mul, .a = 17, .b = 74},  // 83
-    {.op = ExprOp::mul, .a = 6, .b = 74},  // 84
-    {.op = ExprOp::mul, .a = 16, .b = 74},  // 85
-    {.op = ExprOp::mul, .a = 22, .b = 74},  // 86
-    {.op = ExprOp::constant, .value = 264},  // 87
-    {.op = ExprOp::mul, .a = 25, .b = 87},  // 88
-    {.op = ExprOp::mul, .a = 25, .b = 74},  // 89
-    {.op = ExprOp::mul, .a = 29, .b = 74},  // 90
-    {.op = ExprOp::mul, .a = 30, .b = 78},  // 91
-    {.op = ExprOp::constant, .value = 64},  // 92
-    {.op = ExprOp::ceil_div, .a = 3, .b = 92},  // 93
-    {.op = ExprOp::constant, .value = 8},  // 94
-    {.op = ExprOp::ceil_div, .a = 19, .b = 94},  // 95
-    {.op = ExprOp::ceil_div, .a = 20, .b = 94},  // 96
-    {.op = ExprOp::ceil_div, .a = 39, .b = 94},  // 97
-    {.op = ExprOp::ceil_div, .a = 40, .b = 94},  // 98
-    {.op = ExprOp::ceil_div, .a = 41, .b = 94},  // 99
-    {.op = ExprOp::ceil_div, .a = 42, .b = 94},  // 100
-    {.op = ExprOp::ceil_div, .a = 44, .b = 94},  // 101
-    {.op = ExprOp::ceil_div, .a = 45, .b = 94},  // 102
-    {.op = ExprOp::ceil_div, .a = 46, .b = 94},  // 103
-    {.op = ExprOp::ceil_div, .a = 47, .b = 94},  // 104
-    {.op = ExprOp::ceil_div, .a = 7, .b = 94},  // 105
-    {.op = ExprOp::ceil_div, .a = 8, .b = 94},  // 106
-    {.op = ExprOp::ceil_div, .a = 49, .b = 94},  // 107
-    {.op = ExprOp::ceil_div, .a = 50, .b = 94},  // 108
-    {.op = ExprOp::ceil_div, .a = 52, .b = 94},  // 109
-    {.op = ExprOp::ceil_div, .a = 53, .b = 94},  // 110
-    {.op = ExprOp::ceil_div, .a = 55, .b = 94},  // 111
-    {.op = ExprOp::ceil_div, .a = 56, .b = 94},  // 112
-    {.op = ExprOp::ceil_div, .a = 57, .b = 92},  // 113
-    {.op = ExprOp::ceil_div, .a = 6, .b = 92},  // 114
-    {.op = ExprOp::ceil_div, .a = 27, .b = 94},  // 115
-    {.op = ExprOp::ceil_div, .a = 28, .b = 94},  // 116
-    {.op = ExprOp::ceil_div, .a = 1, .b = 78},  // 117
-    {.op = ExprOp::ceil_div, .a = 2, .b = 78},  // 118
-    {.op = ExprOp::ceil_div, .a = 1, .b = 94},  // 119
-    {.op = ExprOp::ceil_div, .a = 2, .b = 94},  // 120
-    {.op = ExprOp::ceil_div, .a = 58, .b = 94},  // 121
-    {.op = ExprOp::ceil_div, .a = 59, .b = 94},  // 122
-    {.op = ExprOp::ceil_div, .a = 60, .b = 94},  // 123
-    {.op = ExprOp::ceil_div, .a = 61, .b = 94},  // 124
-    {.op = ExprOp::ceil_div, .a = 62, .b = 94},  // 125
-    {.op = ExprOp::ceil_div, .a = 63, .b = 94},  // 126
-    {.op = ExprOp::ceil_div, .a = 27, .b = 78},  // 127
-    {.op = ExprOp::ceil_div, .a = 28, .b = 78},  // 128
-    {.op = ExprOp::ceil_div, .a = 64, .b = 94},  // 129
-    {.op = ExprOp::ceil_div, .a = 65, .b = 94},  // 130
-    {.op = ExprOp::ceil_div, .a = 66, .b = 94},  // 131
-    {.op = ExprOp::ceil_div, .a = 67, .b = 94},  // 132
-    {.op = ExprOp::constant, .value = 3},  // 133
-    {.op = ExprOp::constant, .value = 49152},  // 134
-    {.op = ExprOp::constant, .value = 32768},  // 135
-    {.op = ExprOp::constant, .value = 81920},  // 136
-    {.op = ExprOp::constant, .value = 114688},  // 137
-    {.op = ExprOp::constant, .value = 16384},  // 138
-    {.op = ExprOp::constant, .value = 65536},  // 139
-    {.op = ExprOp::constant, .value = 98304},  // 140
+    {.op = ExprOp::constant, .value = 80},  // 78
+    {.op = ExprOp::mul, .b = 78},  // 79
+    {.op = ExprOp::constant, .value = 48},  // 80
+    {.op = ExprOp::mul, .b = 80},  // 81
+    {.op = ExprOp::constant, .value = 4},  // 82
+    {.op = ExprOp::mul, .b = 82},  // 83
+    {.op = ExprOp::constant, .value = 32},  // 84
+    {.op = ExprOp::mul, .b = 84},  // 85
+    {.op = ExprOp::constant, .value = 16},  // 86
+    {.op = ExprOp::mul, .a = 3, .b = 86},  // 87
+    {.op = ExprOp::mul, .a = 4, .b = 82},  // 88
+    {.op = ExprOp::mul, .a = 6, .b = 86},  // 89
+    {.op = ExprOp::mul, .a = 15, .b = 82},  // 90
+    {.op = ExprOp::mul, .a = 17, .b = 82},  // 91
+    {.op = ExprOp::mul, .a = 6, .b = 82},  // 92
+    {.op = ExprOp::mul, .a = 16, .b = 82},  // 93
+    {.op = ExprOp::mul, .a = 22, .b = 82},  // 94
+    {.op = ExprOp::constant, .value = 264},  // 95
+    {.op = ExprOp::mul, .a = 25, .b = 95},  // 96
+    {.op = ExprOp::mul, .a = 25, .b = 82},  // 97
+    {.op = ExprOp::mul, .a = 29, .b = 82},  // 98
+    {.op = ExprOp::mul, .a = 30, .b = 86},  // 99
+    {.op = ExprOp::mul, .a = 68, .b = 82},  // 100
+    {.op = ExprOp::mul, .a = 69, .b = 82},  // 101
+    {.op = ExprOp::constant, .value = 64},  // 102
+    {.op = ExprOp::ceil_div, .a = 3, .b = 102},  // 103
+    {.op = ExprOp::constant, .value = 8},  // 104
+    {.op = ExprOp::ceil_div, .a = 19, .b = 104},  // 105
+    {.op = ExprOp::ceil_div, .a = 20, .b = 104},  // 106
+    {.op = ExprOp::ceil_div, .a = 39, .b = 104},  // 107
+    {.op = ExprOp::ceil_div, .a = 40, .b = 104},  // 108
+    {.op = ExprOp::ceil_div, .a = 41, .b = 104},  // 109
+    {.op = ExprOp::ceil_div, .a = 42, .b = 104},  // 110
+    {.op = ExprOp::ceil_div, .a = 7, .b = 104},  // 111
+    {.op = ExprOp::ceil_div, .a = 8, .b = 104},  // 112
+    {.op = ExprOp::ceil_div, .a = 44, .b = 104},  // 113
+    {.op = ExprOp::ceil_div, .a = 45, .b = 104},  // 114
+    {.op = ExprOp::ceil_div, .a = 46, .b = 104},  // 115
+    {.op = ExprOp::ceil_div, .a = 47, .b = 104},  // 116
+    {.op = ExprOp::ceil_div, .a = 49, .b = 104},  // 117
+    {.op = ExprOp::ceil_div, .a = 50, .b = 104},  // 118
+    {.op = ExprOp::ceil_div, .a = 52, .b = 104},  // 119
+    {.op = ExprOp::ceil_div, .a = 53, .b = 104},  // 120
+    {.op = ExprOp::ceil_div, .a = 55, .b = 104},  // 121
+    {.op = ExprOp::ceil_div, .a = 56, .b = 104},  // 122
+    {.op = ExprOp::ceil_div, .a = 57, .b = 102},  // 123
+    {.op = ExprOp::ceil_div, .a = 6, .b = 102},  // 124
+    {.op = ExprOp::ceil_div, .a = 27, .b = 104},  // 125
+    {.op = ExprOp::ceil_div, .a = 28, .b = 104},  // 126
+    {.op = ExprOp::ceil_div, .a = 23, .b = 104},  // 127
+    {.op = ExprOp::ceil_div, .a = 24, .b = 104},  // 128
+    {.op = ExprOp::ceil_div, .a = 1, .b = 104},  // 129
+    {.op = ExprOp::ceil_div, .a = 2, .b = 104},  // 130
+    {.op = ExprOp::ceil_div, .a = 58, .b = 104},  // 131
+    {.op = ExprOp::ceil_div, .a = 59, .b = 104},  // 132
+    {.op = ExprOp::ceil_div, .a = 60, .b = 104},  // 133
+    {.op = ExprOp::ceil_div, .a = 61, .b = 104},  // 134
+    {.op = ExprOp::ceil_div, .a = 62, .b = 104},  // 135
+    {.op = ExprOp::ceil_div, .a = 63, .b = 104},  // 136
+    {.op = ExprOp::ceil_div, .a = 64, .b = 104},  // 137
+    {.op = ExprOp::ceil_div, .a = 65, .b = 104},  // 138
+    {.op = ExprOp::ceil_div, .a = 27, .b = 86},  // 139
+    {.op = ExprOp::ceil_div, .a = 28, .b = 86},  // 140
+    {.op = ExprOp::ceil_div, .a = 66, .b = 104},  // 141
+    {.op = ExprOp::ceil_div, .a = 67, .b = 104},  // 142
+    {.op = ExprOp::constant, .value = 3},  // 143
+    {.op = ExprOp::constant, .value = 49152},  // 144
+    {.op = ExprOp::constant, .value = 32768},  // 145
+    {.op = ExprOp::constant, .value = 81920},  // 146
+    {.op = ExprOp::constant, .value = 114688},  // 147
+    {.op = ExprOp::constant, .value = 16384},  // 148
+    {.op = ExprOp::constant, .value = 65536},  // 149
+    {.op = ExprOp::constant, .value = 98304},  // 150
+    {.op = ExprOp::constant, .value = 12},  // 151
+    {.op = ExprOp::constant, .value = 24},  // 152
+    {.op = ExprOp::constant, .value = 36},  // 153
+    {.op = ExprOp::constant, .value = 60},  // 154
+    {.op = ExprOp::constant, .value = 72},  // 155
+    {.op = ExprOp::constant, .value = 84},  // 156
 };
 
 constexpr Extent kExtents[] = {
@@ -196,113 +219,116 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128, .import_slot = 0,
-     .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
-    {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 71, .stride = 80,
-     .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
-    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 69, .stride = 128,
-     .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
-    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48,
-     .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 73, .stride = 48, .import_slot = 4,
-     .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 75, .stride = 4, .import_slot = 5,
-     .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 77, .stride = 32, .import_slot = 6,
-     .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
-    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 75, .stride = 4,
-     .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 77, .stride = 128,
+     .layout = 726144499, .import_slot = 0, .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
+    {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 79, .stride = 80,
+     .layout = 2864363377, .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
+    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 77, .stride = 128,
+     .layout = 3875358314, .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
+    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 81, .stride = 48,
+     .layout = 3506255352, .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 81, .stride = 48,
+     .layout = 2983543026, .import_slot = 4, .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 83, .stride = 4,
+     .layout = 1948121759, .import_slot = 5, .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 85, .stride = 32,
+     .layout = 1832413415, .import_slot = 6, .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
+    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 83, .stride = 4,
+     .layout = 1948121759, .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
     {.name = "scene.surface_maps", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 18, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 18153472, .line = 48, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 79, .stride = 16, .estimated_bytes = 16384, .estimated_alignment = 256,
-     .estimated_offset = 10420224, .line = 49, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 80, .stride = 4,
-     .estimated_bytes = 256, .line = 50, .file = "passes.rg"},
+     .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 20, .file = "passes.rg"},
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 18153472, .line = 50, .file = "passes.rg"},
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 10420224, .line = 51, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 88, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 256, .line = 52, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
-     .estimated_alignment = 65536, .line = 63, .file = "passes.rg"},
-    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 81, .stride = 16, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .estimated_offset = 12992512, .line = 82, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 83, .file = "passes.rg"},
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 89, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
+     .estimated_alignment = 256, .estimated_offset = 12992512, .line = 102, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
-     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 83, .file = "passes.rg"},
+     .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 103, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 107, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 127, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 108, .file = "passes.rg"},
-    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 82, .stride = 4, .estimated_bytes = 147456,
-     .estimated_alignment = 256, .estimated_offset = 12845056, .line = 98, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 83, .stride = 4, .estimated_bytes = 2359296,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 99, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.density", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13434880, .line = 100, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.inscatter", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 12845056, .line = 101, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.extinction", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 13762560, .line = 102, .file = "passes/fog/fog.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 128, .file = "passes.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 90, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 12845056, .line = 117, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 91, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 2359296, .estimated_alignment = 256, .estimated_offset = 10485760, .line = 118, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
-     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 103,
+     .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 122,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 113, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 133, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 131, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10485760, .line = 149, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 10518528, .line = 150, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 84, .stride = 4, .estimated_bytes = 32768, .estimated_alignment = 256,
-     .estimated_offset = 18988288, .line = 151, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 85, .stride = 4, .estimated_bytes = 256, .estimated_alignment = 256,
-     .estimated_offset = 10551296, .line = 152, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 18284544, .line = 153, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 86, .stride = 4, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 18514944, .line = 154, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 88, .stride = 264, .estimated_bytes = 242944,
-     .estimated_alignment = 256, .estimated_offset = 18745344, .line = 155, .file = "passes.rg"},
-    {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 89, .stride = 4,
-     .estimated_bytes = 3840, .line = 156, .file = "passes.rg"},
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 151, .file = "passes.rg"},
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 169, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 10518528, .line = 170, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 18614272, .line = 171, .file = "passes.rg"},
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 10551296, .line = 172, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
+     .estimated_alignment = 256, .estimated_offset = 18153472, .line = 173, .file = "passes.rg"},
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
+     .estimated_alignment = 256, .estimated_offset = 18383872, .line = 174, .file = "passes.rg"},
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 96, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
+     .estimated_alignment = 256, .estimated_offset = 18874368, .line = 175, .file = "passes.rg"},
+    {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 97, .stride = 4,
+     .layout = 1948121759, .estimated_bytes = 3840, .line = 176, .file = "passes.rg"},
+    {.name = "tile_kernels", .format = Format{98}, .width = 23, .height = 24, .aspects = aspect_color, .usage = 8, .estimated_bytes = 65536,
+     .estimated_alignment = 65536, .estimated_offset = 18808832, .line = 177, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 202, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 223, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 203, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 13303808, .line = 224, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 204, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 14286848, .line = 225, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 205, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 226, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 206, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 227, .file = "passes.rg"},
     {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 18153472, .line = 238, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18677760, .line = 259, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 239, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 260, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .line = 288, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 90, .stride = 4, .estimated_bytes = 512, .estimated_alignment = 256,
-     .estimated_offset = 1638400, .line = 308, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 91, .stride = 16, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 309, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 655360, .line = 312, .file = "passes.rg"},
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 98, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
+     .estimated_alignment = 256, .estimated_offset = 1638400, .line = 333, .file = "passes.rg"},
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 99, .stride = 16, .layout = 2946367551,
+     .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 334, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 310, .file = "passes.rg"},
+     .init = InitKind::clear, .estimated_bytes = 1900544, .line = 335, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 311, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 336, .file = "passes.rg"},
+    {.name = "deferred_light.arguments", .kind = ResourceKind::buffer, .usage = 290, .bytes = 100, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 256, .estimated_alignment = 256, .estimated_offset = 18676480, .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light.tiles", .kind = ResourceKind::buffer, .usage = 32, .bytes = 101, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 29440, .estimated_alignment = 256, .estimated_offset = 18647040, .line = 270, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
-    {.ref = {.resource = resource::cull_counts}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // mesh_cull.clear
+    {.ref = {.resource = resource::cull_counts}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // mesh_cull_world.clear
     {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // mesh_cull
+    {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
     // mesh_cull
     {.ref = {.resource = resource::world_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // mesh_cull
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::cull_counts}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // mesh_cull
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
+    // lamp_cull
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
@@ -311,16 +337,6 @@ constexpr Access kAccesses[] = {
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
-    // lamp_cull
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    // depth_world
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
     // sun_shadow_props
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
@@ -355,6 +371,13 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 32}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    // depth_world
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
     // depth_props
@@ -425,49 +448,34 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
-    // froxel_fog.chain.inject
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    // froxel_fog.chain.inject
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.inject
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.inject
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.chain.light
-    // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
-    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.light
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
-    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.chain.integrate
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
@@ -483,6 +491,23 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::zbin_min}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
     {.ref = {.resource = resource::zbin_max}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
     {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
+    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
+    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // tile_cull
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // tile_cull
+    // tile_cull
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    // tile_cull
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // gbuffer_world
@@ -504,16 +529,6 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_world
     {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // gbuffer_world
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
-    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
-    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
-    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
     {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // gbuffer_props
     {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // gbuffer_props
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
@@ -528,6 +543,8 @@ constexpr Access kAccesses[] = {
      .accesses = access::color_attachment_read | access::color_attachment_write, .layout = Layout::color_attachment, .writes = true},  // gbuffer_props
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_props
+    // deferred_light.reset
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},
     {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // zbin_pack
@@ -539,47 +556,276 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // light_cull
     {.ref = {.resource = resource::forward_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // tile_cull
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // tile_cull
-    // tile_cull
-    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    // tile_cull
-    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // ambient_occlusion
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // ambient_occlusion
     {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // ambient_occlusion
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
+    // deferred_light.classify
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // deferred_light.classify
+    // deferred_light.classify
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light.classify
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[0]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
-    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
-    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
-    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[0]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[0]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[0]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[0]
+    // deferred_light[0]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 31, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[0]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[1]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[1]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[1]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[1]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[1]
+    // deferred_light[1]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 70, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[1]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[2]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[2]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[2]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[2]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[2]
+    // deferred_light[2]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 68, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[2]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[3]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[3]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[3]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[3]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[3]
+    // deferred_light[3]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 71, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[3]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[4]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[4]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[4]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[4]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[4]
+    // deferred_light[4]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 72, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[4]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[5]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[5]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[5]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[5]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[5]
+    // deferred_light[5]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 73, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[5]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[6]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[6]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[6]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[6]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[6]
+    // deferred_light[6]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 74, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[6]
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[7]
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[7]
+    {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[7]
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[7]
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[7]
+    // deferred_light[7]
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 75, .size = 70}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // deferred_light[7]
     // transparent
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader | stage::fragment_shader, .accesses = access::shader_storage_read},
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // transparent
@@ -628,6 +874,10 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // debug_view
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -650,31 +900,29 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // debug_view
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
+    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read, .layout = Layout::general},  // debug_view
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::forward_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // debug_view
     {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
-    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
-     .layout = Layout::shader_read_only},  // luminance
-    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
-    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
-    {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
-    {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // expose
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
+     .layout = Layout::shader_read_only},  // luminance
+    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
+    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
+    {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
+    {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // expose
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
@@ -707,174 +955,203 @@ constexpr Access kAccesses[] = {
 };
 
 constexpr Pass kPasses[] = {
-    {.name = "mesh_cull.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 52, .file = "passes.rg"},
+    {.name = "mesh_cull_world.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 64, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 30, .z = 30}, .line = 52, .file = "passes.rg"},
-    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
-     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 65, .file = "passes.rg"},
-    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 10, .access_count = 2, .pipeline = 2,
-     .first_binding = 9, .binding_count = 4, .first_params = 2, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 93, .y = 18, .z = 30},
-     .line = 86, .file = "passes.rg"},
-    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
-     .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 115, .file = "passes.rg"},
-    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 2, .pipeline = 4,
-     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 73, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 3,
-     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 30, .z = 30}, .line = 56, .file = "passes.rg"},
+    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 5, .access_count = 2, .pipeline = 1,
+     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 18, .z = 30},
+     .line = 106, .file = "passes.rg"},
+    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 7, .access_count = 5, .rendering = 0, .pipeline = 2,
+     .first_binding = 9, .binding_count = 4, .first_params = 3, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 85, .file = "passes.rg"},
+    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 3, .rendering = 0, .pipeline = 3,
+     .first_binding = 13, .binding_count = 1, .first_params = 4, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 93, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 15, .access_count = 5, .rendering = 1,
+     .pipeline = 4, .first_binding = 14, .binding_count = 4, .first_params = 5, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 4,
-     .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 2,
+     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 30, .access_count = 5, .rendering = 5,
-     .pipeline = 7, .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 3,
+     .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
-    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 6, .pipeline = 8,
-     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 123, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 7,
+     .line = 115, .file = "passes.rg"},
+    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 30, .access_count = 5, .rendering = 4, .pipeline = 7,
+     .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 135, .file = "passes.rg"},
+    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 4, .pipeline = 8,
+     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 143, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 5,
      .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 8,
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 6,
      .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
+     .line = 115, .file = "passes.rg"},
     {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
-     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 95, .y = 96, .z = 30}, .line = 133, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 9,
+     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 153, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 7,
      .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 10,
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 8,
      .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
+     .line = 115, .file = "passes.rg"},
     {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
-     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 97, .y = 98, .z = 30}, .mip_limit_count = 1, .line = 140,
+     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .mip_limit_count = 1, .line = 160,
      .file = "passes.rg"},
-    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 11,
+    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 9,
      .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
-     .line = 95, .file = "passes.rg"},
+     .line = 115, .file = "passes.rg"},
     {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
      .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 39, .file = "passes/fog/fog.rg"},
     {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
-     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 99, .y = 100, .z = 30}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.inject", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 4, .pipeline = 18,
-     .first_binding = 63, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 57, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 77, .access_count = 2, .pipeline = 19,
-     .first_binding = 69, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 101, .y = 102, .z = 30}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.light", .module = "fog", .kind = PassKind::compute, .first_access = 79, .access_count = 10, .pipeline = 20,
-     .first_binding = 71, .binding_count = 12, .first_params = 19, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
-     .line = 67, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 2, .pipeline = 21,
-     .first_binding = 83, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 104, .z = 30}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "froxel_fog.chain.integrate", .module = "fog", .kind = PassKind::compute, .first_access = 91, .access_count = 4, .pipeline = 22,
-     .first_binding = 85, .binding_count = 6, .first_params = 21, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 83, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 95, .access_count = 2, .pipeline = 23,
-     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 2, .pipeline = 24,
-     .first_binding = 93, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 99, .access_count = 2, .pipeline = 25,
-     .first_binding = 95, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 140, .file = "passes.rg"},
-    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 101, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 158, .file = "passes.rg"},
-    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 103, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 173, .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 104, .access_count = 13, .rendering = 12, .pipeline = 26,
-     .first_binding = 97, .binding_count = 7, .first_params = 23, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 208, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 117, .access_count = 3, .pipeline = 27, .first_binding = 104,
-     .binding_count = 4, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 158,
+     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 1,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 11, .pipeline = 18,
+     .first_binding = 63, .binding_count = 13, .first_params = 17, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .line = 125, .file = "passes/fog/fog.rg"},
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 84, .access_count = 2, .pipeline = 19,
+     .first_binding = 76, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 113, .y = 114, .z = 30}, .first_mip_limit = 3,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 86, .access_count = 2, .pipeline = 20,
+     .first_binding = 78, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 5,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 88, .access_count = 2, .pipeline = 21,
+     .first_binding = 80, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 90, .access_count = 2, .pipeline = 22,
+     .first_binding = 82, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .first_mip_limit = 9,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 92, .access_count = 2, .pipeline = 23,
+     .first_binding = 84, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 11,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 94, .access_count = 2,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 179, .file = "passes.rg"},
+    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 96, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 194, .file = "passes.rg"},
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 3, .pipeline = 24, .first_binding = 86,
+     .binding_count = 4, .first_params = 19, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 179,
      .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 120, .access_count = 3, .pipeline = 28,
-     .first_binding = 108, .binding_count = 4, .first_params = 25, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 113, .y = 30, .z = 30}, .line = 173, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 123, .access_count = 8, .rendering = 13, .pipeline = 29,
-     .first_binding = 112, .binding_count = 1, .first_params = 26, .params_count = 1, .push_bytes = 128, .push_stages = 1,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 224, .file = "passes.rg"},
-    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 131, .access_count = 3, .pipeline = 30, .first_binding = 113,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 30, .z = 30}, .line = 166, .file = "passes.rg"},
-    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 134, .access_count = 5, .pipeline = 31, .first_binding = 116,
-     .binding_count = 6, .first_params = 27, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 181,
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 100, .access_count = 3, .pipeline = 25,
+     .first_binding = 90, .binding_count = 4, .first_params = 20, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 30, .z = 30},
+     .line = 194, .file = "passes.rg"},
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 103, .access_count = 4, .pipeline = 26, .first_binding = 94,
+     .binding_count = 5, .first_params = 21, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 212,
      .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 4, .pipeline = 32, .first_binding = 122,
-     .binding_count = 5, .first_params = 28, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 191,
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 107, .access_count = 13, .rendering = 10, .pipeline = 27,
+     .first_binding = 99, .binding_count = 7, .first_params = 22, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 229, .file = "passes.rg"},
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 120, .access_count = 8, .rendering = 10, .pipeline = 28,
+     .first_binding = 106, .binding_count = 1, .first_params = 23, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 245, .file = "passes.rg"},
+    {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 128, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 270, .file = "passes.rg"},
+    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 129, .access_count = 3, .pipeline = 29, .first_binding = 107,
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 30, .z = 30}, .line = 187, .file = "passes.rg"},
+    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 132, .access_count = 5, .pipeline = 30, .first_binding = 110,
+     .binding_count = 6, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 202,
      .file = "passes.rg"},
-    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 143, .access_count = 3, .pipeline = 33,
-     .first_binding = 127, .binding_count = 4, .first_params = 29, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 241, .file = "passes.rg"},
-    {.name = "deferred_light", .module = "frame", .kind = PassKind::compute, .first_access = 146, .access_count = 16, .pipeline = 34,
-     .first_binding = 131, .binding_count = 18, .first_params = 30, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .line = 249, .file = "passes.rg"},
-    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 162, .access_count = 14, .rendering = 14, .pipeline = 35,
-     .first_binding = 149, .binding_count = 14, .first_params = 32, .params_count = 2, .push_bytes = 4, .push_stages = 17,
-     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 265, .file = "passes.rg"},
-    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .first_access = 176, .access_count = 2, .rendering = 15, .push_bytes = 80,
-     .push_stages = 17, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 282, .file = "passes.rg"},
-    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 178, .access_count = 5, .pipeline = 36,
-     .first_binding = 163, .binding_count = 6, .first_params = 34, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 327, .file = "passes.rg"},
-    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 183, .access_count = 2, .pipeline = 37,
-     .first_binding = 169, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .line = 337, .file = "passes.rg"},
-    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 185, .access_count = 2, .pipeline = 38,
-     .first_binding = 171, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 13,
-     .mip_limit_count = 1, .line = 344, .file = "passes.rg"},
-    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 187, .access_count = 2, .pipeline = 39,
-     .first_binding = 173, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 14,
-     .mip_limit_count = 2, .line = 344, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 189, .access_count = 16, .pipeline = 40,
-     .first_binding = 175, .binding_count = 18, .first_params = 35, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .line = 289, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 205, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 313, .file = "passes.rg"},
-    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 206, .access_count = 2, .pipeline = 41,
-     .first_binding = 193, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 16,
-     .mip_limit_count = 2, .line = 344, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 208, .access_count = 2, .pipeline = 42, .first_binding = 195,
-     .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 313, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 210, .access_count = 2, .pipeline = 43,
-     .first_binding = 197, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 344, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 212, .access_count = 3, .pipeline = 44, .first_binding = 199,
-     .binding_count = 4, .first_params = 37, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 319,
+    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 137, .access_count = 3, .pipeline = 31,
+     .first_binding = 116, .binding_count = 4, .first_params = 25, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 262, .file = "passes.rg"},
+    {.name = "deferred_light.classify", .module = "frame", .kind = PassKind::compute, .first_access = 140, .access_count = 4, .pipeline = 32,
+     .first_binding = 120, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[0]", .module = "frame", .kind = PassKind::compute, .first_access = 144, .access_count = 18, .pipeline = 33,
+     .first_binding = 124, .binding_count = 19, .first_params = 26, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 31},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[1]", .module = "frame", .kind = PassKind::compute, .first_access = 162, .access_count = 18, .pipeline = 34,
+     .first_binding = 143, .binding_count = 19, .first_params = 28, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 70},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[2]", .module = "frame", .kind = PassKind::compute, .first_access = 180, .access_count = 18, .pipeline = 35,
+     .first_binding = 162, .binding_count = 19, .first_params = 30, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 68},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[3]", .module = "frame", .kind = PassKind::compute, .first_access = 198, .access_count = 18, .pipeline = 36,
+     .first_binding = 181, .binding_count = 19, .first_params = 32, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 71},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[4]", .module = "frame", .kind = PassKind::compute, .first_access = 216, .access_count = 18, .pipeline = 37,
+     .first_binding = 200, .binding_count = 19, .first_params = 34, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 72},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[5]", .module = "frame", .kind = PassKind::compute, .first_access = 234, .access_count = 18, .pipeline = 38,
+     .first_binding = 219, .binding_count = 19, .first_params = 36, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 73},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[6]", .module = "frame", .kind = PassKind::compute, .first_access = 252, .access_count = 18, .pipeline = 39,
+     .first_binding = 238, .binding_count = 19, .first_params = 38, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 74},
+     .line = 270, .file = "passes.rg"},
+    {.name = "deferred_light[7]", .module = "frame", .kind = PassKind::compute, .first_access = 270, .access_count = 18, .pipeline = 40,
+     .first_binding = 257, .binding_count = 19, .first_params = 40, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 75},
+     .line = 270, .file = "passes.rg"},
+    {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 288, .access_count = 14, .rendering = 11, .pipeline = 41,
+     .first_binding = 276, .binding_count = 14, .first_params = 42, .params_count = 2, .push_bytes = 4, .push_stages = 17, .push_layout = 2478537437,
+     .work = {.kind = WorkKind::host}, .host_slot = 3, .line = 287, .file = "passes.rg"},
+    {.name = "hologram", .module = "frame", .kind = PassKind::raster, .guard = 2, .first_access = 302, .access_count = 2, .rendering = 11,
+     .push_bytes = 80, .push_stages = 17, .push_layout = 1519638825, .work = {.kind = WorkKind::host}, .host_slot = 4, .line = 305,
      .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 215, .access_count = 2, .pipeline = 45,
-     .first_binding = 203, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 344, .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 217, .access_count = 2, .pipeline = 46,
-     .first_binding = 205, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 352, .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 219, .access_count = 2, .pipeline = 47,
-     .first_binding = 207, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 352, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 221, .access_count = 2, .pipeline = 48,
-     .first_binding = 209, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 124, .z = 30}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 352, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 223, .access_count = 2, .pipeline = 49,
-     .first_binding = 211, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 352, .file = "passes.rg"},
-    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 225, .access_count = 2, .pipeline = 50,
-     .first_binding = 213, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 30,
-     .mip_limit_count = 1, .line = 352, .file = "passes.rg"},
-    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 227, .access_count = 5, .rendering = 16, .pipeline = 51,
-     .first_binding = 215, .binding_count = 5, .first_params = 38, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 133}, .line = 359,
+    {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 304, .access_count = 5, .pipeline = 42,
+     .first_binding = 290, .binding_count = 6, .first_params = 44, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 353, .file = "passes.rg"},
+    {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 309, .access_count = 2, .pipeline = 43,
+     .first_binding = 296, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 363, .file = "passes.rg"},
+    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 311, .access_count = 2, .pipeline = 44,
+     .first_binding = 298, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 13,
+     .mip_limit_count = 1, .line = 370, .file = "passes.rg"},
+    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 313, .access_count = 2, .pipeline = 45,
+     .first_binding = 300, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 14,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 315, .access_count = 2, .pipeline = 46,
+     .first_binding = 302, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 16,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 317, .access_count = 17, .pipeline = 47,
+     .first_binding = 304, .binding_count = 19, .first_params = 45, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 313, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 334, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 338, .file = "passes.rg"},
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 335, .access_count = 2, .pipeline = 48,
+     .first_binding = 323, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 18,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 337, .access_count = 2, .pipeline = 49, .first_binding = 325,
+     .binding_count = 2, .choice_count = 2, .feature_count = 1, .work = {.kind = WorkKind::dispatch, .x = 139, .y = 140, .z = 30}, .line = 338,
+     .file = "passes.rg"},
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 339, .access_count = 2, .pipeline = 51,
+     .first_binding = 327, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 141, .y = 142, .z = 30}, .first_mip_limit = 20,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 341, .access_count = 3, .pipeline = 52, .first_binding = 329,
+     .binding_count = 4, .first_params = 47, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 345,
+     .file = "passes.rg"},
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 344, .access_count = 2, .pipeline = 53,
+     .first_binding = 333, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 22,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 346, .access_count = 2, .pipeline = 54,
+     .first_binding = 335, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 348, .access_count = 2, .pipeline = 55,
+     .first_binding = 337, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 350, .access_count = 2, .pipeline = 56,
+     .first_binding = 339, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 352, .access_count = 2, .pipeline = 57,
+     .first_binding = 341, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 30,
+     .mip_limit_count = 1, .line = 378, .file = "passes.rg"},
+    {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 354, .access_count = 5, .rendering = 12, .pipeline = 58,
+     .first_binding = 343, .binding_count = 5, .first_params = 48, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 143}, .line = 385,
      .file = "passes.rg"},
 };
 
@@ -917,24 +1194,14 @@ constexpr ImageBarrier kImageBarriers[] = {
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 3},
+     .src_stages = stage::fragment_shader | stage::compute_shader, .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
-     .new_layout = Layout::depth_attachment},  // sun_shadow_world -> sun_shadow_props
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 3}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
-    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_attachment,
-     .new_layout = Layout::depth_attachment},  // depth_world -> depth_props
     {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 2}, .src_stages = stage::fragment_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
@@ -961,50 +1228,32 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
-    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.inject
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.chain.light
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // sun_shadow_props -> froxel_fog.merged
     {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.inject -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .old_layout = Layout::depth_attachment, .new_layout = Layout::depth_read_only},  // lamp_shadow_world[7] -> froxel_fog.merged
+    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
-    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
+    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
     {.image = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.light
+     .new_layout = Layout::general},  // frame start -> froxel_fog.merged
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.chain.light
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.merged
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
-    {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
-    {.image = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // froxel_fog.chain.light -> froxel_fog.chain.integrate
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
@@ -1014,6 +1263,9 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
     {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
@@ -1029,66 +1281,42 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
-    {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
-    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
-    {.image = {.resource = resource::material}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
-    {.image = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
-    {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // gbuffer_world -> gbuffer_props
+    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> deferred_light.classify
     {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> ambient_occlusion
     {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> ambient_occlusion
-    // froxel_fog.chain.integrate -> deferred_light
+    // froxel_fog.merged -> deferred_light[0]
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
-    // froxel_fog.chain.integrate -> deferred_light
+    // froxel_fog.merged -> deferred_light[0]
     {.image = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
      .dst_accesses = access::shader_sampled_read, .old_layout = Layout::general, .new_layout = Layout::shader_read_only},
     {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light
+     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light[0]
     {.image = {.resource = resource::material}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light
+     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light[0]
     {.image = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light
+     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> deferred_light[0]
     {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // ambient_occlusion -> deferred_light
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // ambient_occlusion -> deferred_light[0]
     {.image = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> deferred_light
+     .new_layout = Layout::general},  // frame start -> deferred_light[0]
     {.image = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::color_attachment_output,
      .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::general,
-     .new_layout = Layout::color_attachment},  // deferred_light -> transparent
-    {.image = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // transparent -> hologram
+     .new_layout = Layout::color_attachment},  // deferred_light[7] -> transparent
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> resolve_temporal
@@ -1114,12 +1342,15 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[1] -> bloom_down[2]
-    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[2] -> bloom_down[3]
+    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read,
+     .old_layout = Layout::general, .new_layout = Layout::general},  // deferred_light.classify -> debug_view
+    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[3] -> bloom_down[4]
@@ -1171,32 +1402,31 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
-    // frame start -> mesh_cull
-    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
+    // mesh_cull_world.clear -> mesh_cull
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // mesh_cull.clear -> mesh_cull
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
     {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
-    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
-     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     // lamp_cull -> lamp_shadow_world[0]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 134}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 144}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[2] -> lamp_shadow_world[3]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 134, .size = 135}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 144, .size = 145}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 136, .size = 135}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 146, .size = 145}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     // lamp_shadow_world[6] -> lamp_shadow_world[7]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 137}, .src_stages = stage::compute_shader,
+    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 147}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
     {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.inject
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.chain.light
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     // frame start -> light_occlusion.clear
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
     // zbin_build.clear -> zbin_build
@@ -1214,16 +1444,24 @@ constexpr BufferBarrier kBufferBarriers[] = {
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_occlusion -> light_cull
+    // tile_cull -> deferred_light.classify
+    {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader | stage::host, .dst_accesses = access::shader_storage_read | access::host_read},
+    // deferred_light.reset -> deferred_light.classify
+    {.buffer = {.resource = resource::deferred_light_arguments}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
     {.buffer = {.resource = resource::zbins}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_pack -> deferred_light
+     .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_pack -> deferred_light[0]
     {.buffer = {.resource = resource::tile_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> deferred_light
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> deferred_light[0]
     {.buffer = {.resource = resource::tile_records}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> deferred_light
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // tile_cull -> deferred_light[0]
+    {.buffer = {.resource = resource::deferred_light_arguments}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // deferred_light.classify -> deferred_light[0]
+    {.buffer = {.resource = resource::deferred_light_tiles}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // deferred_light.classify -> deferred_light[0]
     {.buffer = {.resource = resource::forward_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_cull -> transparent
-    {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader | stage::host, .dst_accesses = access::shader_storage_read | access::host_read},  // tile_cull -> debug_view
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},  // luminance.clear -> luminance
     {.buffer = {.resource = resource::histogram}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1235,37 +1473,35 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {},  // before mesh_cull.clear  passes.rg:52
-    {.buffer_count = 2},  // before mesh_cull  passes.rg:52
-    {.image_count = 2, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:65
-    {.first_image = 2, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before sun_shadow_props  passes.rg:73
-    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:95
-    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:95
-    {.first_image = 10, .image_count = 2, .first_buffer = 8, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:95
-    {.first_image = 12, .image_count = 2, .first_buffer = 9, .buffer_count = 1},  // before froxel_fog.chain.inject  passes/fog/fog.rg:57
-    {.first_image = 14, .image_count = 8, .first_buffer = 10, .buffer_count = 1},  // before froxel_fog.chain.light  passes/fog/fog.rg:67
-    {.first_image = 22, .image_count = 5},  // before froxel_fog.chain.integrate  passes/fog/fog.rg:83
-    {.first_image = 27, .image_count = 1},  // before depth_range_down[6]  passes.rg:140
-    {.first_image = 28, .image_count = 6, .first_buffer = 11, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:140
-    {.first_image = 34, .image_count = 6, .first_buffer = 12, .buffer_count = 3},  // before zbin_build  passes.rg:158
-    {.first_image = 40, .image_count = 2, .first_buffer = 15, .buffer_count = 3},  // before zbin_pack  passes.rg:166
-    {.first_image = 42, .image_count = 7, .first_buffer = 18, .buffer_count = 3},  // before deferred_light  passes.rg:249
-    {.first_image = 49, .image_count = 1, .first_buffer = 21, .buffer_count = 1},  // before transparent  passes.rg:265
-    {.first_image = 50, .image_count = 1},  // before hologram  passes.rg:282
-    {.first_image = 51, .image_count = 3},  // before resolve_temporal  passes.rg:327
-    {.first_image = 54, .image_count = 3},  // before bloom_first  passes.rg:337
-    {.first_image = 57, .image_count = 1},  // before bloom_down[1]  passes.rg:344
-    {.first_image = 58, .image_count = 1},  // before bloom_down[2]  passes.rg:344
-    {.first_image = 59, .image_count = 2, .first_buffer = 22, .buffer_count = 1},  // before debug_view  passes.rg:289
-    {.first_image = 61, .image_count = 1, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:313
-    {.first_image = 62, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before expose  passes.rg:319
-    {.first_image = 63, .image_count = 2},  // before bloom_up[1]  passes.rg:352
-    {.first_image = 65, .image_count = 2},  // before bloom_up[2]  passes.rg:352
-    {.first_image = 67, .image_count = 2},  // before bloom_up[3]  passes.rg:352
-    {.first_image = 69, .image_count = 2},  // before bloom_up[4]  passes.rg:352
-    {.first_image = 71, .image_count = 2},  // before bloom_up[5]  passes.rg:352
-    {.first_image = 73, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:359
-    {.first_image = 76, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
+    {},  // before mesh_cull_world.clear  passes.rg:64
+    {.buffer_count = 2},  // before mesh_cull  passes.rg:56
+    {.image_count = 3, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:85
+    {.first_image = 3, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:115
+    {.first_image = 6, .image_count = 2, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:115
+    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:115
+    {.first_image = 10, .image_count = 7, .first_buffer = 8, .buffer_count = 2},  // before froxel_fog.merged  passes/fog/fog.rg:125
+    {.first_image = 17, .image_count = 1},  // before depth_range_down[4]  passes.rg:160
+    {.first_image = 18, .image_count = 1},  // before depth_range_down[5]  passes.rg:160
+    {.first_image = 19, .image_count = 1},  // before depth_range_down[6]  passes.rg:160
+    {.first_image = 20, .image_count = 1, .first_buffer = 10, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:160
+    {.first_image = 21, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before zbin_build  passes.rg:179
+    {.first_image = 27, .image_count = 3, .first_buffer = 14, .buffer_count = 5},  // before zbin_pack  passes.rg:187
+    {.first_image = 30, .image_count = 7, .first_buffer = 19, .buffer_count = 5},  // before deferred_light[0]  passes.rg:270
+    {.first_image = 37, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before transparent  passes.rg:287
+    {.first_image = 38, .image_count = 3},  // before resolve_temporal  passes.rg:353
+    {.first_image = 41, .image_count = 3},  // before bloom_first  passes.rg:363
+    {.first_image = 44, .image_count = 1},  // before bloom_down[1]  passes.rg:370
+    {.first_image = 45, .image_count = 1},  // before bloom_down[2]  passes.rg:370
+    {.first_image = 46, .image_count = 1},  // before bloom_down[3]  passes.rg:370
+    {.first_image = 47, .image_count = 3},  // before debug_view  passes.rg:313
+    {.first_image = 50, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // before luminance  passes.rg:338
+    {.first_image = 51, .image_count = 2, .first_buffer = 26, .buffer_count = 1},  // before expose  passes.rg:345
+    {.first_image = 53, .image_count = 2},  // before bloom_up[2]  passes.rg:378
+    {.first_image = 55, .image_count = 2},  // before bloom_up[3]  passes.rg:378
+    {.first_image = 57, .image_count = 2},  // before bloom_up[4]  passes.rg:378
+    {.first_image = 59, .image_count = 2},  // before bloom_up[5]  passes.rg:378
+    {.first_image = 61, .image_count = 3, .first_buffer = 27, .buffer_count = 1},  // before tonemap  passes.rg:385
+    {.first_image = 64, .image_count = 1, .first_buffer = 28, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1289,14 +1525,14 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 150, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1319,12 +1555,6 @@ constexpr Boundary kEntry[] = {
      .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
-     .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0,
      .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -1355,6 +1585,7 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_features}, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .queue = 0, .discard = true},
@@ -1382,6 +1613,21 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader, .queue = 0,
      .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 151, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 152, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 153, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 80, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 154, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 155, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 156}},
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .queue = 0, .discard = true},
 };
 
 constexpr Boundary kExit[] = {
@@ -1406,14 +1652,14 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 138, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 135, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 134, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 139, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 136, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 140, .size = 138}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 137}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 150, .size = 148}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1436,12 +1682,6 @@ constexpr Boundary kExit[] = {
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_density}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::froxel_fog_extinction}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .queue = 0},
     {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -1473,6 +1713,8 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::forward_lights}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_records}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::tile_features}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
+    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::general,
+     .queue = 0, .discard = true},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
      .queue = 0, .discard = true},
     {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .layout = Layout::shader_read_only,
@@ -1509,6 +1751,21 @@ constexpr Boundary kExit[] = {
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 151, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 152, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 153, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 80, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 154, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
+     .bytes = {.offset = 155, .size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 156}},
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .queue = 0, .discard = true},
 };
 
 constexpr Acquire kAcquires[] = {
@@ -1518,98 +1775,98 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 2},
     {.resource = resource::sun_shadow, .group = 2, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
-    {.resource = resource::lamp_draws, .group = 2, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 2,
-     .first_clock = 6},
-    {.resource = resource::scattered, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 22},
-    {.resource = resource::transmittance, .group = 9, .image_barrier = 23, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 24},
-    {.resource = resource::froxel_fog_cluster_volumes, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 6, .first_clock = 12},
-    {.resource = resource::froxel_fog_cluster_lights, .group = 6, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 6, .first_clock = 14},
-    {.resource = resource::froxel_fog_density, .group = 7, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 7, .first_clock = 16},
-    {.resource = resource::froxel_fog_inscatter, .group = 8, .image_barrier = 17, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 8, .first_clock = 18},
-    {.resource = resource::froxel_fog_extinction, .group = 8, .image_barrier = 18, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 8, .first_clock = 20},
-    {.resource = resource::depth, .group = 2, .image_barrier = 1, .image_barriers = 1,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 6},
+    {.resource = resource::lamp_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
+     .first_clock = 4},
+    {.resource = resource::scattered, .group = 6, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 6, .first_clock = 16},
+    {.resource = resource::transmittance, .group = 6, .image_barrier = 13, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 6, .first_clock = 18},
+    {.resource = resource::froxel_fog_cluster_volumes, .group = 5, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 5, .first_clock = 12},
+    {.resource = resource::froxel_fog_cluster_lights, .group = 5, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 5, .first_clock = 14},
+    {.resource = resource::depth, .group = 2, .image_barrier = 2, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 8},
-    {.resource = resource::depth_range, .group = 4, .image_barrier = 7, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 4, .first_clock = 10},
-    {.resource = resource::zbin_min, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 26},
-    {.resource = resource::zbin_max, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 28},
-    {.resource = resource::zbins, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
+    {.resource = resource::depth_range, .group = 3, .image_barrier = 5, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 3, .first_clock = 10},
+    {.resource = resource::zbin_min, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 20},
+    {.resource = resource::zbin_max, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 22},
+    {.resource = resource::zbins, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+     .first_clock = 40},
+    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 24},
+    {.resource = resource::tile_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 42},
-    {.resource = resource::lights_seen, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11, .first_clock = 30},
-    {.resource = resource::tile_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
+    {.resource = resource::forward_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 44},
-    {.resource = resource::forward_lights, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 46},
-    {.resource = resource::tile_records, .group = 13, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 13,
-     .first_clock = 48},
-    {.resource = resource::albedo, .group = 11, .image_barrier = 29, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::tile_records, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 11,
+     .first_clock = 26},
+    {.resource = resource::tile_kernels, .group = 12, .image_barrier = 27, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 46},
+    {.resource = resource::albedo, .group = 11, .image_barrier = 22, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 28},
+    {.resource = resource::normal, .group = 11, .image_barrier = 23, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 30},
+    {.resource = resource::material, .group = 11, .image_barrier = 24, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
-    {.resource = resource::normal, .group = 11, .image_barrier = 30, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::emissive, .group = 11, .image_barrier = 25, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 34},
-    {.resource = resource::material, .group = 11, .image_barrier = 31, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::velocity, .group = 11, .image_barrier = 26, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 36},
-    {.resource = resource::emissive, .group = 11, .image_barrier = 32, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 38},
-    {.resource = resource::velocity, .group = 11, .image_barrier = 33, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 40},
-    {.resource = resource::occlusion, .group = 13, .image_barrier = 41, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 13, .first_clock = 50},
-    {.resource = resource::hdr, .group = 14, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 14, .first_clock = 52},
-    {.resource = resource::debug_image, .group = 21, .image_barrier = 59, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 21, .first_clock = 56},
-    {.resource = resource::histogram, .group = 21, .stages = stage::clear, .accesses = access::transfer_write, .point = 21, .first_clock = 58},
-    {.resource = resource::bloom, .group = 18, .image_barrier = 55, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 54},
+    {.resource = resource::occlusion, .group = 12, .image_barrier = 29, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 48},
+    {.resource = resource::hdr, .group = 13, .image_barrier = 36, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
+    {.resource = resource::debug_image, .group = 20, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 20, .first_clock = 56},
+    {.resource = resource::histogram, .group = 20, .stages = stage::clear, .accesses = access::transfer_write, .point = 20, .first_clock = 58},
+    {.resource = resource::bloom, .group = 16, .image_barrier = 42, .image_barriers = 2, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 16, .first_clock = 54},
+    {.resource = resource::deferred_light_arguments, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11,
+     .first_clock = 38},
+    {.resource = resource::deferred_light_tiles, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+     .first_clock = 50},
 };
 
 constexpr Release kReleases[] = {
     {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 12},
     {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 3},
-    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 16},
-    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 7},
-    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 8},
-    {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 9},
-    {.resource = resource::froxel_fog_density, .stages = stage::compute_shader, .point = 9},
-    {.resource = resource::froxel_fog_inscatter, .stages = stage::compute_shader, .point = 10},
-    {.resource = resource::froxel_fog_extinction, .stages = stage::compute_shader, .point = 10},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 22},
-    {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 14},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 22},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 22},
-    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 23},
-    {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 30},
-    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 24},
-    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 30},
+    {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 15},
+    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 6},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 7},
+    {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 7},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 21},
+    {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::tile_kernels, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::normal, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::material, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 21},
+    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 28},
+    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 23},
+    {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 28},
+    {.resource = resource::deferred_light_arguments, .stages = stage::draw_indirect, .point = 14},
+    {.resource = resource::deferred_light_tiles, .stages = stage::compute_shader, .point = 14},
 };
 
 constexpr Index kAliasClocks[] = {
-    1, 31, 1, 31, 2, 31, 2, 31, 2, 31, 4, 31, 6, 31, 6, 31,
-    7, 31, 8, 31, 8, 31, 9, 31, 9, 31, 11, 31, 11, 31, 11, 31,
-    11, 31, 11, 31, 11, 31, 11, 31, 11, 31, 13, 31, 13, 31, 13, 31,
-    13, 31, 13, 31, 14, 31, 18, 31, 21, 31, 21, 31,
+    1, 29, 1, 29, 1, 29, 2, 29, 2, 29, 3, 29, 5, 29, 5, 29,
+    6, 29, 6, 29, 10, 29, 10, 29, 10, 29, 11, 29, 11, 29, 11, 29,
+    11, 29, 11, 29, 11, 29, 11, 29, 12, 29, 12, 29, 12, 29, 12, 29,
+    12, 29, 12, 29, 13, 29, 16, 29, 20, 29, 20, 29,
 };
 
 constexpr Queue kQueues[] = {
@@ -1618,106 +1875,107 @@ constexpr Queue kQueues[] = {
 
 constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
-    {.kind = StepKind::pass, .index = pass::mesh_cull_clear},
+    {.kind = StepKind::pass, .index = pass::mesh_cull_world_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
+    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::barriers, .index = 2},
     {.kind = StepKind::pass, .index = pass::sun_shadow_world},
-    {.kind = StepKind::pass, .index = pass::lamp_cull},
-    {.kind = StepKind::pass, .index = pass::depth_world},
-    {.kind = StepKind::barriers, .index = 3},
     {.kind = StepKind::pass, .index = pass::sun_shadow_props},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
+    {.kind = StepKind::pass, .index = pass::depth_world},
     {.kind = StepKind::pass, .index = pass::depth_props},
-    {.kind = StepKind::barriers, .index = 4},
+    {.kind = StepKind::barriers, .index = 3},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
     {.kind = StepKind::pass, .index = pass::depth_range_first},
-    {.kind = StepKind::barriers, .index = 5},
+    {.kind = StepKind::barriers, .index = 4},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
-    {.kind = StepKind::barriers, .index = 6},
+    {.kind = StepKind::barriers, .index = 5},
     {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
     {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
-    {.kind = StepKind::barriers, .index = 7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_inject},
+    {.kind = StepKind::barriers, .index = 6},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_merged},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
-    {.kind = StepKind::barriers, .index = 8},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_light},
+    {.kind = StepKind::barriers, .index = 7},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
-    {.kind = StepKind::barriers, .index = 9},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_chain_integrate},
+    {.kind = StepKind::barriers, .index = 8},
     {.kind = StepKind::pass, .index = pass::depth_range_down_5},
-    {.kind = StepKind::barriers, .index = 10},
+    {.kind = StepKind::barriers, .index = 9},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
-    {.kind = StepKind::barriers, .index = 11},
+    {.kind = StepKind::barriers, .index = 10},
     {.kind = StepKind::pass, .index = pass::depth_range_down_7},
     {.kind = StepKind::pass, .index = pass::zbin_build_clear},
     {.kind = StepKind::pass, .index = pass::light_occlusion_clear},
-    {.kind = StepKind::pass, .index = pass::gbuffer_world},
-    {.kind = StepKind::barriers, .index = 12},
+    {.kind = StepKind::barriers, .index = 11},
     {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::pass, .index = pass::light_occlusion},
+    {.kind = StepKind::pass, .index = pass::tile_cull},
+    {.kind = StepKind::pass, .index = pass::gbuffer_world},
     {.kind = StepKind::pass, .index = pass::gbuffer_props},
-    {.kind = StepKind::barriers, .index = 13},
+    {.kind = StepKind::pass, .index = pass::deferred_light_reset},
+    {.kind = StepKind::barriers, .index = 12},
     {.kind = StepKind::pass, .index = pass::zbin_pack},
     {.kind = StepKind::pass, .index = pass::light_cull},
-    {.kind = StepKind::pass, .index = pass::tile_cull},
     {.kind = StepKind::pass, .index = pass::ambient_occlusion},
+    {.kind = StepKind::pass, .index = pass::deferred_light_classify},
+    {.kind = StepKind::barriers, .index = 13},
+    {.kind = StepKind::pass, .index = pass::deferred_light_0},
+    {.kind = StepKind::pass, .index = pass::deferred_light_1},
+    {.kind = StepKind::pass, .index = pass::deferred_light_2},
+    {.kind = StepKind::pass, .index = pass::deferred_light_3},
+    {.kind = StepKind::pass, .index = pass::deferred_light_4},
+    {.kind = StepKind::pass, .index = pass::deferred_light_5},
+    {.kind = StepKind::pass, .index = pass::deferred_light_6},
+    {.kind = StepKind::pass, .index = pass::deferred_light_7},
     {.kind = StepKind::barriers, .index = 14},
-    {.kind = StepKind::pass, .index = pass::deferred_light},
-    {.kind = StepKind::barriers, .index = 15},
     {.kind = StepKind::pass, .index = pass::transparent},
-    {.kind = StepKind::barriers, .index = 16},
     {.kind = StepKind::pass, .index = pass::hologram},
-    {.kind = StepKind::barriers, .index = 17},
+    {.kind = StepKind::barriers, .index = 15},
     {.kind = StepKind::pass, .index = pass::resolve_temporal},
-    {.kind = StepKind::barriers, .index = 18},
+    {.kind = StepKind::barriers, .index = 16},
     {.kind = StepKind::pass, .index = pass::bloom_first},
-    {.kind = StepKind::barriers, .index = 19},
+    {.kind = StepKind::barriers, .index = 17},
     {.kind = StepKind::pass, .index = pass::bloom_down_1},
-    {.kind = StepKind::barriers, .index = 20},
+    {.kind = StepKind::barriers, .index = 18},
     {.kind = StepKind::pass, .index = pass::bloom_down_2},
-    {.kind = StepKind::barriers, .index = 21},
+    {.kind = StepKind::barriers, .index = 19},
+    {.kind = StepKind::pass, .index = pass::bloom_down_3},
+    {.kind = StepKind::barriers, .index = 20},
     {.kind = StepKind::pass, .index = pass::debug_view},
     {.kind = StepKind::pass, .index = pass::luminance_clear},
-    {.kind = StepKind::pass, .index = pass::bloom_down_3},
-    {.kind = StepKind::barriers, .index = 22},
-    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_4},
-    {.kind = StepKind::barriers, .index = 23},
-    {.kind = StepKind::pass, .index = pass::expose},
+    {.kind = StepKind::barriers, .index = 21},
+    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_5},
-    {.kind = StepKind::barriers, .index = 24},
+    {.kind = StepKind::barriers, .index = 22},
+    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_1},
-    {.kind = StepKind::barriers, .index = 25},
+    {.kind = StepKind::barriers, .index = 23},
     {.kind = StepKind::pass, .index = pass::bloom_up_2},
-    {.kind = StepKind::barriers, .index = 26},
+    {.kind = StepKind::barriers, .index = 24},
     {.kind = StepKind::pass, .index = pass::bloom_up_3},
-    {.kind = StepKind::barriers, .index = 27},
+    {.kind = StepKind::barriers, .index = 25},
     {.kind = StepKind::pass, .index = pass::bloom_up_4},
-    {.kind = StepKind::barriers, .index = 28},
+    {.kind = StepKind::barriers, .index = 26},
     {.kind = StepKind::pass, .index = pass::bloom_up_5},
-    {.kind = StepKind::barriers, .index = 29},
+    {.kind = StepKind::barriers, .index = 27},
     {.kind = StepKind::pass, .index = pass::tonemap},
-    {.kind = StepKind::barriers, .index = 30},
+    {.kind = StepKind::barriers, .index = 28},
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 88},
+    {.step_count = 93},
 };
 
 constexpr Attachment kAttachments[] = {
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 1, .layers = 1},
@@ -1725,7 +1983,7 @@ constexpr Attachment kAttachments[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
+     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 3, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 4, .layers = 1},
@@ -1748,22 +2006,6 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
      .load = LoadOp::load, .store = StoreOp::none},
-    {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::material}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::velocity}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
-     .load = LoadOp::load, .store = StoreOp::none},
-    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
-     .load = LoadOp::load, .store = StoreOp::none},
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
@@ -1774,49 +2016,51 @@ constexpr Attachment kAttachments[] = {
 
 constexpr Rendering kRenderings[] = {
     {.depth = 0, .width = 5, .height = 5},
-    {.depth = 1, .width = 1, .height = 2},
-    {.depth = 2, .width = 5, .height = 5},
+    {.depth = 1, .width = 0, .height = 0},
+    {.depth = 2, .width = 0, .height = 0},
     {.depth = 3, .width = 0, .height = 0},
-    {.depth = 4, .width = 0, .height = 0},
+    {.depth = 4, .width = 1, .height = 2},
     {.depth = 5, .width = 0, .height = 0},
-    {.depth = 6, .width = 1, .height = 2},
+    {.depth = 6, .width = 0, .height = 0},
     {.depth = 7, .width = 0, .height = 0},
     {.depth = 8, .width = 0, .height = 0},
     {.depth = 9, .width = 0, .height = 0},
-    {.depth = 10, .width = 0, .height = 0},
-    {.depth = 11, .width = 0, .height = 0},
-    {.first_color = 12, .color_count = 5, .depth = 17, .width = 1, .height = 2},
-    {.first_color = 18, .color_count = 5, .depth = 23, .width = 1, .height = 2},
-    {.first_color = 24, .color_count = 1, .depth = 25, .width = 1, .height = 2},
-    {.first_color = 26, .color_count = 1, .depth = 27, .width = 1, .height = 2},
-    {.first_color = 28, .color_count = 1, .width = 1, .height = 2},
+    {.first_color = 10, .color_count = 5, .depth = 15, .width = 1, .height = 2},
+    {.first_color = 16, .color_count = 1, .depth = 17, .width = 1, .height = 2},
+    {.first_color = 18, .color_count = 1, .width = 1, .height = 2},
 };
 
 constexpr ShaderModule kShaders[] = {
-    {.name = "passes/geometry/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_mesh_cull_comp},
-    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
+    {.name = "rgc/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_mesh_cull_comp},
     {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
-    {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
+    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
     {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
     {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
+    {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
     {.name = "passes/geometry/depth_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_props_vert},
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
     {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
-    {.name = "passes/fog/fog_inject.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_inject_comp},
-    {.name = "passes/fog/fog_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_light_comp},
-    {.name = "passes/fog/fog_integrate.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_integrate_comp},
-    {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
-    {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
+    {.name = "rgc/froxel_fog.merged.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp},
     {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
     {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
+    {.name = "passes/culling/tile_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_tile_cull_comp},
+    {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
+    {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
     {.name = "passes/geometry/gbuffer_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_props_vert},
     {.name = "passes/geometry/gbuffer_props.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_props_frag},
     {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
     {.name = "passes/culling/light_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_cull_comp},
-    {.name = "passes/culling/tile_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_tile_cull_comp},
     {.name = "passes/lighting/ambient_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_ambient_occlusion_comp},
+    {.name = "rgc/deferred_light_classify.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_deferred_light_classify_comp},
     {.name = "passes/lighting/deferred_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp},
+    {.name = "passes/lighting/deferred_light.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_2},
+    {.name = "passes/lighting/deferred_light.comp.3", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_3},
+    {.name = "passes/lighting/deferred_light.comp.4", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_4},
+    {.name = "passes/lighting/deferred_light.comp.5", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_5},
+    {.name = "passes/lighting/deferred_light.comp.6", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_6},
+    {.name = "passes/lighting/deferred_light.comp.7", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_7},
+    {.name = "passes/lighting/deferred_light.comp.8", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_8},
     {.name = "passes/lighting/transparent.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_lighting_transparent_vert},
     {.name = "passes/lighting/transparent.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_lighting_transparent_frag},
     {.name = "passes/post/resolve_temporal.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_resolve_temporal_comp},
@@ -1824,6 +2068,7 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/post/bloom_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_down_comp},
     {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
     {.name = "passes/post/luminance.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp},
+    {.name = "passes/post/luminance.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp_2},
     {.name = "passes/post/expose.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_expose_comp},
     {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = frame::spirv::rgc_fullscreen_vert},
@@ -1831,10 +2076,10 @@ constexpr ShaderModule kShaders[] = {
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 5, 5, 5, 6, 5, 5, 7, 5, 5, 8, 5,
-    9, 8, 10, 8, 11, 8, 12, 8, 8, 8, 13, 14, 15, 16, 17, 18,
-    19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 28, 29, 28, 30, 28, 31,
-    28, 32, 32, 32, 32, 32, 33, 34,
+    0, 1, 2, 3, 4, 4, 4, 5, 6, 4, 4, 7, 4, 4, 8, 4,
+    9, 8, 10, 8, 8, 8, 8, 8, 11, 12, 13, 14, 15, 16, 17, 18,
+    19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34,
+    34, 34, 35, 34, 36, 37, 34, 38, 39, 39, 39, 39, 39, 40, 41,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -1882,19 +2127,19 @@ constexpr VertexAttribute kVertexAttributes[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "mesh_cull", .pass = pass::mesh_cull, .shader_count = 1},
-    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 1, .shader_count = 1,
+    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 1, .shader_count = 1},
+    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 2, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 2, .shader_count = 1},
-    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 3, .shader_count = 1,
-     .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
-    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 4, .shader_count = 1,
+    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 3, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 5, .shader_count = 1,
+    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 4, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 6, .shader_count = 1,
+    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 5, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 7, .shader_count = 1,
+    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 6, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 7, .shader_count = 1,
+     .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
     {.name = "depth_props", .pass = pass::depth_props, .first_shader = 8, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1,
      .first_vertex_attribute = 6, .vertex_attribute_count = 6},
@@ -1912,64 +2157,67 @@ constexpr Pipeline kPipelines[] = {
      .raster = {.depth_test = true, .depth_write = true}},
     {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 16, .shader_count = 1},
     {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
-    {.name = "froxel_fog.chain.inject", .pass = pass::froxel_fog_chain_inject, .first_shader = 18, .shader_count = 1},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 18, .shader_count = 1},
     {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
-    {.name = "froxel_fog.chain.light", .pass = pass::froxel_fog_chain_light, .first_shader = 20, .shader_count = 1},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 21, .shader_count = 1},
-    {.name = "froxel_fog.chain.integrate", .pass = pass::froxel_fog_chain_integrate, .first_shader = 22, .shader_count = 1},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 23, .shader_count = 1},
-    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 24, .shader_count = 1},
-    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 25, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 20, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 21, .shader_count = 1},
+    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 22, .shader_count = 1},
+    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 23, .shader_count = 1},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 24, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 25, .shader_count = 1},
+    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 26, .shader_count = 1},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 27, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .blend_count = 5},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 28, .shader_count = 1},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 29, .shader_count = 1},
-    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 30, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 29, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
-    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 32, .shader_count = 1},
-    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 33, .shader_count = 1},
-    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 34, .shader_count = 1},
-    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 35, .shader_count = 1},
-    {.name = "deferred_light", .pass = pass::deferred_light, .first_shader = 36, .shader_count = 1},
-    {.name = "transparent", .pass = pass::transparent, .first_shader = 37, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
+    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 31, .shader_count = 1},
+    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 32, .shader_count = 1},
+    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 33, .shader_count = 1},
+    {.name = "deferred_light.classify", .pass = pass::deferred_light_classify, .first_shader = 34, .shader_count = 1},
+    {.name = "deferred_light[0]", .pass = pass::deferred_light_0, .first_shader = 35, .shader_count = 1},
+    {.name = "deferred_light[1]", .pass = pass::deferred_light_1, .first_shader = 36, .shader_count = 1},
+    {.name = "deferred_light[2]", .pass = pass::deferred_light_2, .first_shader = 37, .shader_count = 1},
+    {.name = "deferred_light[3]", .pass = pass::deferred_light_3, .first_shader = 38, .shader_count = 1},
+    {.name = "deferred_light[4]", .pass = pass::deferred_light_4, .first_shader = 39, .shader_count = 1},
+    {.name = "deferred_light[5]", .pass = pass::deferred_light_5, .first_shader = 40, .shader_count = 1},
+    {.name = "deferred_light[6]", .pass = pass::deferred_light_6, .first_shader = 41, .shader_count = 1},
+    {.name = "deferred_light[7]", .pass = pass::deferred_light_7, .first_shader = 42, .shader_count = 1},
+    {.name = "transparent", .pass = pass::transparent, .first_shader = 43, .shader_count = 2, .raster = {.depth_test = true}, .first_blend = 10,
      .blend_count = 1},
-    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 39, .shader_count = 1},
-    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 40, .shader_count = 1},
-    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 41, .shader_count = 1},
-    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 42, .shader_count = 1},
-    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 43, .shader_count = 1},
-    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 44, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 45, .shader_count = 1},
-    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 46, .shader_count = 1},
-    {.name = "expose", .pass = pass::expose, .first_shader = 47, .shader_count = 1},
-    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 48, .shader_count = 1},
-    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 49, .shader_count = 1},
-    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 50, .shader_count = 1},
-    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 51, .shader_count = 1},
-    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 52, .shader_count = 1},
-    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 53, .shader_count = 1},
-    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 54, .shader_count = 2, .first_blend = 11, .blend_count = 1},
+    {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 45, .shader_count = 1},
+    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 46, .shader_count = 1},
+    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 47, .shader_count = 1},
+    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 48, .shader_count = 1},
+    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 49, .shader_count = 1},
+    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 50, .shader_count = 1},
+    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 51, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 52, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 53, .shader_count = 1},
+    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 54, .shader_count = 1},
+    {.name = "expose", .pass = pass::expose, .first_shader = 55, .shader_count = 1},
+    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 56, .shader_count = 1},
+    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 57, .shader_count = 1},
+    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 58, .shader_count = 1},
+    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 59, .shader_count = 1},
+    {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 60, .shader_count = 1},
+    {.name = "tonemap", .pass = pass::tonemap, .first_shader = 61, .shader_count = 2, .first_blend = 11, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // mesh_cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::cull_counts}},  // mesh_cull
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
     {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[0]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[0]
@@ -1983,6 +2231,10 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
@@ -2025,54 +2277,36 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.chain.inject
-    // froxel_fog.chain.inject
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.merged
+    // froxel_fog.merged
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
     {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.inject
-    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.inject
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.inject
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.inject
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.merged
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 7, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.merged
+    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
+     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 10, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.merged
+    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.merged
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.chain.light
-    // froxel_fog.chain.light
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
-    {.binding = 2, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_density},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.light
-    {.binding = 3, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.chain.light
-    {.binding = 4, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
-     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.chain.light
-    {.binding = 6, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.chain.light
-    {.binding = 7, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.light
-    {.binding = 10, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.light
-    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.light
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_inscatter}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::froxel_fog_extinction},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only},  // froxel_fog.chain.integrate
-    {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
-    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.chain.integrate
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.chain.integrate
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.chain.integrate
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -2085,15 +2319,6 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // gbuffer_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // gbuffer_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // gbuffer_world
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::scene_materials}},  // gbuffer_world
-    {.binding = 4, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
-    {.binding = 5, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_surface_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
-    {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
@@ -2103,6 +2328,21 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only},  // light_occlusion
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // tile_cull
+    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // tile_cull
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // tile_cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // tile_cull
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // tile_cull
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // gbuffer_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // gbuffer_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // gbuffer_world
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 16, .ref = {.resource = resource::scene_materials}},  // gbuffer_world
+    {.binding = 4, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
+    {.binding = 5, .type = DescriptorType::combined_image_sampler, .stages = 16, .ref = {.resource = resource::scene_surface_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
+    {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_props
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
@@ -2114,12 +2354,6 @@ constexpr Binding kBindings[] = {
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // light_cull
     {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // light_cull
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_cull
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // tile_cull
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // tile_cull
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // tile_cull
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // tile_cull
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // tile_cull
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // ambient_occlusion
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
@@ -2127,36 +2361,261 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color},
      .layout = Layout::general},  // ambient_occlusion
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // ambient_occlusion
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // deferred_light.classify
+    // deferred_light.classify
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_arguments}},
+    // deferred_light.classify
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},
+    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::tile_kernels},
+     .range = {.aspects = aspect_color}, .layout = Layout::general},  // deferred_light.classify
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[0]
     {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light
-    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[0]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[0]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[0]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[0]
     {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // deferred_light
+     .layout = Layout::depth_read_only},  // deferred_light[0]
     {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // deferred_light
+     .layout = Layout::shader_read_only},  // deferred_light[0]
     {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // deferred_light
+     .layout = Layout::shader_read_only},  // deferred_light[0]
     {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // deferred_light
+     .layout = Layout::shader_read_only},  // deferred_light[0]
     {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // deferred_light
+     .layout = Layout::shader_read_only},  // deferred_light[0]
     {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
-     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[0]
     {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
-     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[0]
     {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
-     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[0]
     {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[0]
     {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[0]
     {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
-     .layout = Layout::general},  // deferred_light
-    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light
-    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light
+     .layout = Layout::general},  // deferred_light[0]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[0]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[0]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[0]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[1]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[1]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[1]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[1]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[1]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[1]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[1]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[1]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[1]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[1]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[1]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[1]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[1]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[1]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[2]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[2]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[2]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[2]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[2]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[2]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[2]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[2]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[2]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[2]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[2]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[2]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[2]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[2]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[3]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[3]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[3]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[3]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[3]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[3]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[3]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[3]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[3]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[3]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[3]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[3]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[3]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[3]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[4]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[4]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[4]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[4]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[4]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[4]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[4]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[4]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[4]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[4]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[4]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[4]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[4]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[4]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[5]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[5]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[5]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[5]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[5]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[5]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[5]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[5]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[5]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[5]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[5]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[5]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[5]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[5]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[6]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[6]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[6]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[6]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[6]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[6]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[6]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[6]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[6]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[6]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[6]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[6]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[6]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[6]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[7]
+    {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[7]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // deferred_light[7]
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // deferred_light[7]
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // deferred_light[7]
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.binding = 7, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.binding = 8, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::material}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.binding = 9, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::emissive}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // deferred_light[7]
+    {.binding = 10, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::occlusion},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[7]
+    {.binding = 11, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow},
+     .range = {.aspects = aspect_depth}, .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.binding = 12, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // deferred_light[7]
+    {.binding = 13, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scattered},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[7]
+    {.binding = 14, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // deferred_light[7]
+    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // deferred_light[7]
+    {.binding = 16, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},  // deferred_light[7]
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // deferred_light[7]
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // deferred_light[7]
     {.type = DescriptorType::storage_buffer, .stages = 17, .ref = {.resource = resource::scene_instances}},  // transparent
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // transparent
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // transparent
@@ -2199,6 +2658,10 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // debug_view
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
@@ -2221,32 +2684,30 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // debug_view
     {.binding = 10, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_records}},  // debug_view
     {.binding = 11, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // debug_view
-    {.binding = 12, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
-    {.binding = 13, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
-    {.binding = 14, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
-    {.binding = 15, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
+    {.binding = 12, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::tile_kernels},
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
-    {.binding = 16, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
-    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // luminance
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
+    {.binding = 13, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // debug_view
+    {.binding = 14, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // debug_view
+    {.binding = 15, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // debug_view
+    {.binding = 16, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::debug_image},
+     .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
+    {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
+    {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // expose
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure, .age = 1}},  // expose
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure}},  // expose
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // expose
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // luminance
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // expose
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure, .age = 1}},  // expose
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure}},  // expose
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // expose
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -2283,19 +2744,37 @@ constexpr Sampler kSamplers[] = {
 };
 
 constexpr Params kParams[] = {
-    {.name = "camera", .bytes = 528},
-    {.name = "fog", .bytes = 112},
-    {.name = "lamps", .bytes = 384},
+    {.name = "camera", .bytes = 528, .layout = 2927969200},
+    {.name = "fog", .bytes = 112, .layout = 3517107466},
+    {.name = "lamps", .bytes = 384, .layout = 2251160174},
 };
 
 constexpr Index kPassParams[] = {
-    0, 0, 0, 2, 0, 0, 2, 2, 2, 0, 2, 2, 2, 2, 2, 0,
-    1, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1,
-    0, 1, 0, 0, 1, 0, 0,
+    0, 0, 2, 0, 0, 2, 2, 2, 0, 0, 2, 2, 2, 2, 2, 0,
+    1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 1,
+    0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0,
+    0,
+};
+
+constexpr Feature kFeatures[] = {
+    {.name = "subgroup_sums", .capability = Capability::subgroup_arithmetic},
+    {.name = "holograms"},
+};
+
+constexpr FeatureCondition kFeatureConditions[] = {
+    {.condition = 1, .feature = 1, .values = 2},
+};
+
+constexpr Index kPassFeatures[] = {
+    0,
+};
+
+constexpr Index kPipelineChoices[] = {
+    49, 50,
 };
 
 constexpr std::string_view kConditions[] = {
-    "lamps_moved",
+    "lamps_moved", "holograms=on",
 };
 
 constexpr Transfer kTransfers[] = {
@@ -2303,6 +2782,7 @@ constexpr Transfer kTransfers[] = {
     {.kind = TransferKind::fill, .dst = {.resource = resource::zbin_min}, .value = {.word = {65535, 0, 0, 0}}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::zbin_max}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::lights_seen}},
+    {.kind = TransferKind::fill, .dst = {.resource = resource::deferred_light_arguments}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::histogram}},
 };
 
@@ -2312,7 +2792,8 @@ constexpr Plan kPlan =
      .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
      .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
-     .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .conditions = kConditions, .estimated_heap_bytes = 19021056};
+     .pass_params = kPassParams, .features = kFeatures, .pass_features = kPassFeatures, .pipeline_choices = kPipelineChoices, .transfers = kTransfers,
+     .mip_limits = kMipLimits, .conditions = kConditions, .feature_conditions = kFeatureConditions, .estimated_heap_bytes = 19117312};
 
 }  // namespace
 
@@ -2331,13 +2812,20 @@ rg::Result<Frame> Frame::create(rg::Device& device, const Extents& extents, rg::
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Frame(std::move(*instance));
+  return Frame(plan(), std::move(*instance), options);
 }
 
-rg::Status Frame::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Frame> Frame::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Frame(plan(), std::move(*instance), options);
+}
 
-rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const rg::RecordFunction* callbacks,
-                         void* recorder) {
+rg::Status Frame::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Frame::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
+
+rg::Status Frame::submit(const Imports& imports, const Params& params, const Conditions& conditions, const Features& features,
+                         const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
   inputs.callbacks = callbacks;
   inputs.user = recorder;
@@ -2361,18 +2849,23 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Con
       rg::bytes_of(params.lamps),
   };
   inputs.params = params_rows;
+  const uint32_t feature_rows[] = {
+      0 /* subgroup_sums: the device knows */,
+      static_cast<uint32_t>(features.holograms),
+  };
+  inputs.features = feature_rows;
   if (conditions.lamps_moved) inputs.conditions |= uint64_t{1} << 0;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::cull_counts() {
-  const auto bytes = instance_.readback(resource::cull_counts);
+  const auto bytes = read_back(resource::cull_counts);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }
 
 rg::Result<std::span<const uint32_t>> Frame::tile_features() {
-  const auto bytes = instance_.readback(resource::tile_features);
+  const auto bytes = read_back(resource::tile_features);
   if (!bytes) return bytes.error();
   return rg::elements_of<uint32_t>(*bytes);
 }

@@ -24,7 +24,7 @@ struct Synchronised {
     const PlanOptions options;
     frame = expand(program, kGraph, {}, options);
     const std::vector<bool> live = cull(frame, build_graph(frame, std::vector<bool>(frame.passes.size(), true))).live;
-    schedule = make_schedule(frame, build_graph(frame, live), live, options);
+    schedule = make_schedule(frame, build_graph(frame, live), live, separate_renderings(frame), options);
     lines = find_epochs(frame, schedule);
     sync = synchronise(frame, schedule, lines, options);
   }
