@@ -113,16 +113,16 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 9, .shaders = 7, .pipelines = 6, .barrier_groups = 8, .image_barriers = 12, .buffer_barriers = 4, .batches = 1, .heap_bytes = 65792,
+    {.passes = 9, .shaders = 7, .pipelines = 6, .barrier_groups = 8, .image_barriers = 11, .buffer_barriers = 4, .batches = 1, .heap_bytes = 65792,
      .unaliased_bytes = 131328, .lower_bound_bytes = 65792};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1, .barriers = 1},  // fill_table
-    {.position = 1, .group = 1},  // count_clear
-    {.position = 2, .group = 2, .barriers = 3},  // meshes
-    {.position = 3, .group = 3, .barriers = 3},  // own_pipelines
-    {.position = 4, .group = 3},  // count
+    {.position = 1, .group = 2, .barriers = 3},  // meshes
+    {.position = 2, .group = 2},  // own_pipelines
+    {.position = 3, .group = 2},  // count_clear
+    {.position = 4, .group = 3, .barriers = 2},  // count
     {.position = 5, .group = 4, .barriers = 3},  // bloom_first
     {.position = 6, .group = 5, .barriers = 1},  // bloom_down_1
     {.position = 7, .group = 6, .barriers = 1},  // bloom_down_2
@@ -140,21 +140,21 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 20, .alu = 7, .samples = 3, .live_scalars = 10},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 2, .last = 2},  // scene_lights
-    {.bytes = 256, .first = 2, .last = 2},  // scene_vertices
+    {.bytes = 256, .first = 1, .last = 1},  // scene_lights
+    {.bytes = 256, .first = 1, .last = 1},  // scene_vertices
     {.bytes = 65536, .first = 8, .last = 8},  // backbuffer
-    {.bytes = 65536, .transient = true, .first = 2, .last = 4},  // depth
-    {.bytes = 131072, .first = 2, .last = 8},  // color
+    {.bytes = 65536, .transient = true, .first = 1, .last = 4},  // depth
+    {.bytes = 131072, .first = 1, .last = 8},  // color
     {.bytes = 65536, .transient = true, .first = 5, .last = 8},  // bloom
-    {.bytes = 256, .offset = 65536, .transient = true, .last = 2},  // table
-    {.bytes = 256, .first = 1, .last = 4},  // counted
+    {.bytes = 256, .offset = 65536, .transient = true, .last = 1},  // table
+    {.bytes = 256, .first = 3, .last = 4},  // counted
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill_table = 0;
-inline constexpr rg::Index count_clear = 1;
-inline constexpr rg::Index meshes = 2;
-inline constexpr rg::Index own_pipelines = 3;
+inline constexpr rg::Index meshes = 1;
+inline constexpr rg::Index own_pipelines = 2;
+inline constexpr rg::Index count_clear = 3;
 inline constexpr rg::Index count = 4;
 inline constexpr rg::Index bloom_first = 5;
 inline constexpr rg::Index bloom_down_1 = 6;
