@@ -103,6 +103,10 @@ void check_transfers(const Work& work) {
   for (uint32_t i = 0; i < count; ++i) check_transfer(work, *declared[i], transfers[first + i]);
 }
 
+bool declares_resolve(const dsl::Pass& pass) {
+  return std::any_of(pass.transfers.begin(), pass.transfers.end(), [](const auto& transfer) { return transfer.kind == dsl::TransferKind::resolve; });
+}
+
 void check_resolves(const Work& work, const Rendering& rendering) {
   const auto& attachments = work.model.input->plan.attachments;
   uint32_t planned = 0;
@@ -157,7 +161,10 @@ void check_work(const Model& model, const std::vector<int64_t>& extents, Report&
     if (work.pass.kind == dsl::PassKind::transfer) check_transfers(work);
     check_arguments(work);
     if (work.plan.rendering == kNone) continue;
-    check_resolves(work, model.input->plan.renderings[work.plan.rendering]);
+    if (node.last_in_rendering)
+      check_resolves(work, model.input->plan.renderings[work.plan.rendering]);
+    else if (declares_resolve(work.pass))  // it would come after the last pass
+      report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
     check_clears(work, model.input->plan.renderings[work.plan.rendering]);
   }
 }

@@ -79,6 +79,17 @@ TEST(Renderings, NoneBeginsWhereItsFirstPassIsSkipped) {
   EXPECT_NE(decision(apart, "two", "not merged").find("skipped"), std::string::npos);
 }
 
+TEST(Renderings, TheLastPassResolves) {
+  const FramePlan plan = plan_of(
+      "image many : rgba8 view samples 4\n image one : rgba8 view\n"
+      "pass opaque : raster { color many clear 0  draw host {} }\n"
+      "pass glass : raster { color many  resolve many -> one  draw host {} }\n"
+      "pass show : raster { read one as sampled in fragment  color backbuffer covers  draw host {} }\n");
+  EXPECT_EQ(pass_named(plan.plan, "opaque").rendering, pass_named(plan.plan, "glass").rendering);
+  EXPECT_EQ(attachment_of(plan.plan, "opaque", "many").resolve.resource, resource_named(plan.plan, "one"));
+  EXPECT_EQ(attachment_of(plan.plan, "opaque", "many").store, StoreOp::dont_care);
+}
+
 TEST(Renderings, SwitchesKeepThemApart) {
   EXPECT_FALSE(merged(plan_of(world(kSame), {.merge = false})));
   EXPECT_FALSE(merged(plan_of(world(kSame), {.no_merge = {"props"}})));
