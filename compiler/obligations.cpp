@@ -30,6 +30,7 @@ struct Pending {
   uint32_t segment = UINT32_MAX, pass = UINT32_MAX;
   const Epoch* epoch = nullptr;
   bool read_since = false;            // of a write: by a pass that always runs
+  uint32_t read_in = UINT32_MAX;      // by one of this segment, at first
   bool carried = false;               // a write of an earlier frame that rows say no more of
   std::vector<Visible> visible = {};  // of a write, from the start
 };
@@ -55,7 +56,7 @@ class CellWalk {
   // `unread`: the readers that the rows name may all have been skipped.
   void enter(Rows rows, bool signalled, bool unread) {
     Pending settled{
-        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, unread, {}};
+        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, UINT32_MAX, unread, {}};
     if (!rows.empty()) layout_ = rows.front().row.layout, owner_ = rows.front().row.discard ? kNone : rows.front().row.queue;
     bool writes = false, any = false;
     for (const auto& [cell, row] : rows) {
@@ -166,7 +167,9 @@ class CellWalk {
       const Accesses writes = effect.write_stages & stage ? effect.writes & supported_accesses(stage) : 0;
       for (const Pending& write : state.writes) {
         if (together(write, event, epoch)) continue;
-        each_bit(reads | (write.read_since ? 0 : writes), [&](Accesses access) {
+        // The readers of the same rendering are not waited for.
+        const bool waits_for_readers = write.read_since && write.read_in != event.segment;
+        each_bit(reads | (waits_for_readers ? 0 : writes), [&](Accesses access) {
           if (sees_already(write, event.queue, stage, access)) return;
           if (write.carried && (access & kWrites) && &facts == &found_.facts) carried_.facts.push_back(static_cast<uint32_t>(facts.size()));
           // Tests behind a clear read what the clear wrote; that they see it comes with the clear's own barrier or not at all.
@@ -184,7 +187,10 @@ class CellWalk {
     const Effect& effect = event.effect;
     const bool skips = may_skip(frame_, event.pass, frame_.cells[cell_]), commutes = epoch.share != Share::none && effect.writes != 0;
     if (effect.read_stages && !skips)
-      for (Pending& write : state.writes) write.read_since = write.read_since || (write.pass != event.pass && !together(write, event, epoch));
+      for (Pending& write : state.writes) {
+        if (write.read_since || write.pass == event.pass || together(write, event, epoch)) continue;
+        write.read_since = true, write.read_in = event.segment;
+      }
     if (effect.writes && !skips && !commutes) state = {};
     each_bit(effect.read_stages, [&](Stages stage) {
       if ((effect.reads & supported_accesses(stage)) == 0) return;

@@ -30,8 +30,8 @@ struct SpectrumOptions {
 };
 
 // One row a spectrum that some pass uses, in order of declaration. Costs are the profile's, else from the statistics of the shader's kernels: for no
-// feature, each feature, all, the most frequent masks, and for every set that is chosen. `read_override` reads SpectrumOptions::profile. Reports unreadable, foreign and empty profiles, and masks that do not
-// match the grid of their pass.
+// feature, each feature, all, the most frequent masks, and for every set that is chosen. `read_override` reads SpectrumOptions::profile. Reports
+// unreadable, foreign and empty profiles, and masks that do not match the grid of their pass.
 std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const ReadFile& read, const ReadFile& read_override, dsl::SourceFiles& files,
                                             const SpectrumOptions& options, dsl::Diagnostics& diagnostics);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compiler/verify/alias.h"
+#include "compiler/verify/roles.h"
 
 namespace rg::verify {
 namespace {
@@ -355,14 +356,27 @@ class Mutator {
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
     judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged",
-          depend(a, b) ? "" : "exchanged passes that do not depend on each other");
+          depend(plan_.steps[at].index, plan_.steps[next].index) ? "" : "exchanged passes that do not depend on each other");
   }
 
-  bool depend(const Pass& a, const Pass& b) const {
-    for (const Access& x : plan_.accesses.subspan(a.first_access, a.access_count))
-      for (const Access& y : plan_.accesses.subspan(b.first_access, b.access_count))
-        if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref)) return true;
+  bool depend(Index a, Index b) const {
+    const Pass &first = plan_.passes[a], &second = plan_.passes[b];
+    for (const Access& x : plan_.accesses.subspan(first.first_access, first.access_count))
+      for (const Access& y : plan_.accesses.subspan(second.first_access, second.access_count))
+        if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref) &&
+            !(commutes_in(a, x.ref) && commutes_in(b, x.ref)))
+          return true;
     return false;
+  }
+
+  // All that the pass does to the resource is declared to commute.
+  bool commutes_in(Index pass, Ref ref) const {
+    const dsl::Graph& graph = program_.graphs[graph_];
+    if (pass >= program_pass_.size() || program_pass_[pass] >= graph.passes.size()) return false;
+    const auto& accesses = graph.passes.rows[program_pass_[pass]].accesses;
+    return std::all_of(accesses.begin(), accesses.end(), [&](const dsl::Access& access) {
+      return access.resource.value != program_resource_[ref.resource] || commutes(access);
+    });
   }
 
   // Two writers of contents that nobody reads may follow each other in any order.

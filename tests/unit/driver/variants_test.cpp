@@ -333,7 +333,7 @@ TEST(SpectrumOfAFrame, TheImageOfKernelsMatchesTheGrid) {
 
 TEST(SpectrumOfAFrame, OneRowOfGroupsHasALimit) {
   EXPECT_EQ(compile_files(tiles_into("view", "1 1 1", "512, 256")).codes(),
-            "RG0721 pass `shade` runs 512x256 groups at the greatest extents; each kernel of a spectrum takes at most 65535, in two dimensions\n");
+            "RG0734 pass `shade` runs 512x256 groups at the greatest extents; each kernel of a spectrum takes at most 65535, in two dimensions\n");
 }
 
 // The masks keep their place when a `read` and a `write` before them become one `update`.

@@ -130,9 +130,9 @@ inline constexpr rg::PassFigures kPassFigures[] = {
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {},  // fill_table
-    {},  // count_clear
     {.instructions = 47, .alu = 10, .samples = 1, .loads = 5, .branches = 1, .live_scalars = 22},  // meshes
     {},  // own_pipelines
+    {},  // count_clear
     {.instructions = 33, .alu = 5, .samples = 1, .atomics = 1, .branches = 3, .live_scalars = 4},  // count
     {.instructions = 31, .alu = 7, .samples = 1, .stores = 1, .branches = 2, .live_scalars = 6},  // bloom_first
     {.instructions = 34, .alu = 7, .samples = 1, .loads = 1, .stores = 1, .branches = 2, .live_scalars = 8},  // bloom_down_1

@@ -75,7 +75,6 @@ constexpr Resource kResources[] = {
 
 constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::table}, .stages = stage::copy, .accesses = access::transfer_write, .writes = true},  // fill_table
-    {.ref = {.resource = resource::counted}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // count.clear
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // meshes
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // meshes
     {.ref = {.resource = resource::table}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // meshes
@@ -87,7 +86,8 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_read | access::color_attachment_write, .layout = Layout::color_attachment, .writes = true},  // own_pipelines
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // own_pipelines
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment},  // own_pipelines
+    {.ref = {.resource = resource::counted}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // count.clear
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // count
     {.ref = {.resource = resource::counted}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
@@ -117,13 +117,13 @@ constexpr Access kAccesses[] = {
 constexpr Pass kPasses[] = {
     {.name = "fill_table", .module = "recorders", .kind = PassKind::transfer, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 32, .file = "recorders.rg"},
-    {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 1, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 68, .file = "recorders.rg"},
-    {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 2, .access_count = 5, .rendering = 0, .pipeline = 0,
+    {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 1, .access_count = 5, .rendering = 0, .pipeline = 0,
      .binding_count = 3, .params_count = 1, .push_bytes = 32, .push_stages = 17, .push_layout = 1658585901, .engine_set = 0,
      .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 35, .file = "recorders.rg"},
-    {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 7, .access_count = 2, .rendering = 1, .push_bytes = 32,
+    {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 6, .access_count = 2, .rendering = 0, .push_bytes = 32,
      .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 47, .file = "recorders.rg"},
+    {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 8, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 68, .file = "recorders.rg"},
     {.name = "count", .module = "recorders", .kind = PassKind::compute, .guard = 1, .first_access = 9, .access_count = 2, .pipeline = 1,
      .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 1, .z = 7}, .line = 68, .file = "recorders.rg"},
     {.name = "bloom_first", .module = "recorders", .kind = PassKind::compute, .first_access = 11, .access_count = 2, .pipeline = 2,
@@ -134,7 +134,7 @@ constexpr Pass kPasses[] = {
     {.name = "bloom_down[2]", .module = "recorders", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
      .first_binding = 10, .binding_count = 3, .first_params = 2, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 25, .y = 26, .z = 7},
      .first_mip_limit = 1, .mip_limit_count = 2, .line = 59, .file = "recorders.rg"},
-    {.name = "show", .module = "recorders", .kind = PassKind::raster, .first_access = 17, .access_count = 4, .rendering = 2, .pipeline = 5,
+    {.name = "show", .module = "recorders", .kind = PassKind::raster, .first_access = 17, .access_count = 4, .rendering = 1, .pipeline = 5,
      .first_binding = 13, .binding_count = 3, .work = {.kind = WorkKind::draw, .x = 27}, .line = 75, .file = "recorders.rg"},
 };
 
@@ -145,7 +145,7 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
+    {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> meshes
@@ -154,13 +154,8 @@ constexpr ImageBarrier kImageBarriers[] = {
      .new_layout = Layout::color_attachment},  // frame start -> meshes
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader,
-     .dst_accesses = access::shader_sampled_read | access::depth_stencil_attachment_read, .old_layout = Layout::depth_attachment,
-     .new_layout = Layout::depth_read_only},  // meshes -> own_pipelines
-    {.image = {.resource = resource::color}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output,
-     .dst_accesses = access::color_attachment_read | access::color_attachment_write, .old_layout = Layout::color_attachment,
-     .new_layout = Layout::color_attachment},  // meshes -> own_pipelines
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read, .old_layout = Layout::depth_attachment,
+     .new_layout = Layout::depth_read_only},  // own_pipelines -> count
     // own_pipelines -> bloom_first
     {.image = {.resource = resource::color}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
@@ -203,20 +198,19 @@ constexpr BufferBarrier kBufferBarriers[] = {
 constexpr BarrierGroup kGroups[] = {
     {.buffer_count = 1},  // before fill_table  recorders.rg:32
     {.image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:35
-    {.first_image = 2, .image_count = 2, .first_buffer = 2, .buffer_count = 1},  // before own_pipelines  recorders.rg:47
-    {.first_image = 4, .image_count = 3},  // before bloom_first  recorders.rg:52
-    {.first_image = 7, .image_count = 1},  // before bloom_down[1]  recorders.rg:59
-    {.first_image = 8, .image_count = 1},  // before bloom_down[2]  recorders.rg:59
-    {.first_image = 9, .image_count = 2},  // before show  recorders.rg:75
-    {.first_image = 11, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
+    {.first_image = 2, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before count  recorders.rg:68
+    {.first_image = 3, .image_count = 3},  // before bloom_first  recorders.rg:52
+    {.first_image = 6, .image_count = 1},  // before bloom_down[1]  recorders.rg:59
+    {.first_image = 7, .image_count = 1},  // before bloom_down[2]  recorders.rg:59
+    {.first_image = 8, .image_count = 2},  // before show  recorders.rg:75
+    {.first_image = 10, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read, .queue = 0},
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read, .queue = 0},
     {.ref = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .stages = stage::copy, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader, .queue = 0, .discard = true},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader, .queue = 0,
      .discard = true},
     {.ref = {.resource = resource::color, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
@@ -236,9 +230,8 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read, .queue = 0},
     {.ref = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .stages = stage::copy, .accesses = access::transfer_read,
      .layout = Layout::transfer_src, .queue = 0},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader, .layout = Layout::depth_read_only, .queue = 0,
-     .discard = true},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader, .layout = Layout::depth_read_only,
+     .queue = 0, .discard = true},
     {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only, .queue = 0},
     {.ref = {.resource = resource::color, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::fragment_shader | stage::compute_shader,
@@ -257,13 +250,13 @@ constexpr Acquire kAcquires[] = {
     {.resource = resource::depth, .group = 1, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 1, .first_clock = 2},
-    {.resource = resource::bloom, .group = 3, .image_barrier = 5, .image_barriers = 2, .stages = stage::compute_shader,
+    {.resource = resource::bloom, .group = 3, .image_barrier = 4, .image_barriers = 2, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 3, .first_clock = 4},
     {.resource = resource::table, .group = 0, .stages = stage::copy, .accesses = access::transfer_write, .first_clock = 0},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 3},
+    {.resource = resource::depth, .stages = stage::compute_shader, .point = 3},
     {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 7},
     {.resource = resource::table, .stages = stage::vertex_shader, .point = 2},
 };
@@ -279,11 +272,11 @@ constexpr Queue kQueues[] = {
 constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
     {.kind = StepKind::pass, .index = pass::fill_table},
-    {.kind = StepKind::pass, .index = pass::count_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::meshes},
-    {.kind = StepKind::barriers, .index = 2},
     {.kind = StepKind::pass, .index = pass::own_pipelines},
+    {.kind = StepKind::pass, .index = pass::count_clear},
+    {.kind = StepKind::barriers, .index = 2},
     {.kind = StepKind::pass, .index = pass::count},
     {.kind = StepKind::barriers, .index = 3},
     {.kind = StepKind::pass, .index = pass::bloom_first},
@@ -305,18 +298,13 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
-     .load = LoadOp::load, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
-     .load = LoadOp::load, .store = StoreOp::none},
     {.ref = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::dont_care, .store = StoreOp::store},
 };
 
 constexpr Rendering kRenderings[] = {
     {.color_count = 1, .depth = 1, .width = 0, .height = 1},
-    {.first_color = 2, .color_count = 1, .depth = 3, .width = 0, .height = 1},
-    {.first_color = 4, .color_count = 1, .width = 0, .height = 1},
+    {.first_color = 2, .color_count = 1, .width = 0, .height = 1},
 };
 
 constexpr ShaderModule kShaders[] = {

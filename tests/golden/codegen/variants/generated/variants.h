@@ -38,6 +38,7 @@ inline constexpr rg::PassFigures kPassFigures[] = {
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 12, .alu = 2, .loads = 1, .stores = 1, .live_scalars = 6},  // dim
     {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
@@ -57,23 +58,24 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class First {
+class First : public rg::TypedFrame {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<First> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports) {
     return submit(imports, nullptr, nullptr);
   }
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  explicit First(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace first_graph::bright_off
@@ -124,23 +126,24 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class First {
+class First : public rg::TypedFrame {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<First> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports) {
     return submit(imports, nullptr, nullptr);
   }
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   rg::Status submit(const Imports& imports, const rg::RecordFunction* callbacks, void* recorder);
-  explicit First(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace first_graph::bright_on
@@ -176,6 +179,7 @@ inline constexpr rg::PassFigures kPassFigures[] = {
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 9, .alu = 1, .stores = 1, .live_scalars = 3},  // fill
+    {.instructions = 12, .alu = 2, .loads = 1, .stores = 1, .live_scalars = 6},  // halo
     {.instructions = 20, .alu = 7, .samples = 1, .live_scalars = 4},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
@@ -195,23 +199,24 @@ inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
 }
 
-class Second {
+class Second : public rg::TypedFrame {
  public:
   static rg::Result<Second> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
+  // Goes on where `current` is, another configuration of this graph, at its extents; see GraphInstance::create_successor.
+  static rg::Result<Second> create_successor(rg::TypedFrame& current, const rg::GraphOptions& options = {});
   // What depends on extents is placed anew; on failure the old state stays.
   rg::Status resize(const Extents& extents);
+  // Dynamic resolution: passes run over a part of what is placed; see GraphInstance::set_active.
+  rg::Status set_active(const Extents& extents);
 
   // Records and submits one frame. Allocates nothing.
   rg::Status execute(const Imports& imports, const Features& features) {
     return submit(imports, features, nullptr, nullptr);
   }
 
-  rg::GraphInstance& instance() { return instance_; }
-
  private:
   rg::Status submit(const Imports& imports, const Features& features, const rg::RecordFunction* callbacks, void* recorder);
-  explicit Second(rg::GraphInstance instance) : instance_(std::move(instance)) {}
-  rg::GraphInstance instance_;
+  using TypedFrame::TypedFrame;
 };
 
 }  // namespace second_graph

@@ -200,10 +200,17 @@ rg::Result<Second> Second::create(rg::Device& device, const Extents& extents, rg
   options.extents = values;
   auto instance = rg::GraphInstance::create(device, plan(), options);
   if (!instance) return instance.error();
-  return Second(std::move(*instance));
+  return Second(plan(), std::move(*instance), options);
 }
 
-rg::Status Second::resize(const Extents& extents) { return instance_.resize(extent_values(extents)); }
+rg::Result<Second> Second::create_successor(rg::TypedFrame& current, const rg::GraphOptions& options) {
+  auto instance = succeed(current, plan(), options);
+  if (!instance) return instance.error();
+  return Second(plan(), std::move(*instance), options);
+}
+
+rg::Status Second::resize(const Extents& extents) { return resize_to(extent_values(extents)); }
+rg::Status Second::set_active(const Extents& extents) { return set_active_to(extent_values(extents)); }
 
 rg::Status Second::submit(const Imports& imports, const Features& features, const rg::RecordFunction* callbacks, void* recorder) {
   rg::FrameInputs inputs;
@@ -217,7 +224,7 @@ rg::Status Second::submit(const Imports& imports, const Features& features, cons
       static_cast<uint32_t>(features.bright),
   };
   inputs.features = feature_rows;
-  return instance_.execute(inputs);
+  return execute_inputs(inputs);
 }
 
 }  // namespace variants::second_graph
