@@ -167,8 +167,9 @@ void gather(CellUse& cell_use, const Use& use) {
 
 void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& state) {
   const uint32_t queue = replay.model.passes[pass].queue;
+  // Of this pass itself, too: what it wrote in an earlier frame.
   for (WriteRecord& write : state.writes)
-    if (use.read_stages && !use.may_skip && write.pass != pass && !(use.order != 0 && write.order == use.order)) write.read_since = true;
+    if (use.read_stages && !use.may_skip && !(use.order != 0 && write.order == use.order)) write.read_since = true;
   for (uint32_t s = 0; s < kStageCount; ++s) {
     // A later access that waits for this pass's write in a stage waits for its read there as well.
     if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;
