@@ -3,9 +3,9 @@
 #include "march.glsl"
 
 Stretch start(ivec3 at) { return Stretch(vec3(0.0), 1.0); }
-Stretch own(ivec3 at) { return slice_stretch(vec4(inscatter, extinction), at.z, column_slant(at.xy)); }
+Stretch own(ivec3 at) { return slice_stretch(vec4(inscatter.rgb, extinction), at.z, column_slant(at.xy)); }
 
 void element(ivec3 at, Stretch sum) {
-  scattered = sum.light;
+  scattered.rgb = sum.light;
   transmittance = sum.through;
 }

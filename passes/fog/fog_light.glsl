@@ -10,6 +10,6 @@
 
 void element(ivec3 at) {
   memory = lit_media(at, density, cluster_of(at, domain_size()));
-  inscatter = memory.rgb;
+  inscatter.rgb = memory.rgb;
   extinction = memory.a;
 }
