@@ -21,6 +21,22 @@ void Device::State::rest(std::shared_ptr<void> object) {
   resting[next_resting++ % resting.size()].swap(object);
 }
 
+CommandPool Device::State::take_pool(uint32_t family) {
+  const std::lock_guard lock(spare_mutex);
+  const auto spare = std::find_if(spare_pools.begin(), spare_pools.end(), [&](const CommandPool& pool) { return pool.family == family; });
+  if (spare == spare_pools.end()) return {};
+  CommandPool pool = std::move(*spare);
+  spare_pools.erase(spare);
+  return pool;
+}
+
+void Device::State::give_pool(CommandPool pool) {
+  if (!validating || lost || !pool.pool) return;
+  pool.used = 0;
+  const std::lock_guard lock(spare_mutex);
+  spare_pools.push_back(std::move(pool));
+}
+
 namespace {
 VkResult wait_for_queues(Device::State& state) {
   std::vector<std::unique_lock<std::mutex>> locks;
@@ -35,6 +51,7 @@ VkResult wait_for_queues(Device::State& state) {
 Device::State::~State() {
   if (next_resting != 0) static_cast<void>(wait_for_queues(*this));
   resting = {};
+  spare_pools.clear();
   if (owned) {
     if (device != VK_NULL_HANDLE) vk.DestroyDevice(device, nullptr);
     if (messenger != VK_NULL_HANDLE) vk.DestroyDebugUtilsMessengerEXT(instance, messenger, nullptr);

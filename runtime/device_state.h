@@ -11,12 +11,21 @@
 
 #include "runtime/device.h"
 #include "runtime/functions.h"
+#include "runtime/handles.h"
 
 namespace rg {
 
 struct NullDevice;  // null_device.cpp
 struct NullDeviceDeleter {
   void operator()(NullDevice* device) const;
+};
+
+// A pool with the command buffers that were allocated from it, `used` of them by its owner.
+struct CommandPool {
+  uint32_t family = 0;
+  UniqueCommandPool pool;
+  std::vector<VkCommandBuffer> commands;
+  size_t used = 0;
 };
 
 // One VkQueue. Several instances, and with a lent one the engine too, submit to it: only under the mutex.
@@ -63,6 +72,11 @@ struct Device::State {
   size_t next_resting = 0;
   std::mutex resting_mutex;
   void rest(std::shared_ptr<void> object);
+  // While validating, pools outlive instances: the validation layer keeps about 3 KiB of every command buffer that was ever allocated, freed or not.
+  std::vector<CommandPool> spare_pools;
+  std::mutex spare_mutex;
+  CommandPool take_pool(uint32_t family);  // without a handle: there is none to spare
+  void give_pool(CommandPool pool);        // nothing of it is in flight
   std::atomic<bool> lost = false;  // said once; everything after fails without a call
   std::function<void(bool is_error, std::string_view message)> on_message;
   std::atomic<uint64_t> messages = 0;

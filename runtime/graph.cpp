@@ -28,6 +28,9 @@ GraphInstance::~GraphInstance() = default;
 GraphInstance::State::~State() {
   if (!context.device.lost) static_cast<void>(wait_for(*this, submitted));  // with a lost device nothing is in flight
   for (FrameSlot& slot : slots)
+    for (CommandPool& pool : slot.pools) context.device.give_pool(std::move(pool));
+  for (CommandPool& pool : prologue.pools) context.device.give_pool(std::move(pool));
+  for (FrameSlot& slot : slots)
     for (std::shared_ptr<Timelines>& source : slot.sources) context.device.rest(std::move(source));
   for (std::shared_ptr<Timelines>& source : entry_sources) context.device.rest(std::move(source));
   if (!context.plan.waits.empty() || context.heap || timelines.use_count() > 1) context.device.rest(timelines);
@@ -110,7 +113,9 @@ void count_slots(GraphInstance::State& state) {
   }
   state.imports.resize(imports);
   for (Index p = 0; p < plan.passes.size(); ++p)
-    if (plan.passes[p].work.kind == WorkKind::host) state.host_passes.push_back(p);
+    if (plan.passes[p].work.kind == WorkKind::host) state.host_passes.push_back(p), state.host_slots.push_back(plan.passes[p].host_slot);
+  for (Index p = 0; p < plan.passes.size(); ++p)
+    if (plan.passes[p].choice_count != 0) state.choosing_passes.push_back(p);
   for (const Transfer& transfer : plan.transfers)
     if (transfer.kind == TransferKind::update) state.update_slots = std::max(state.update_slots, transfer.update_slot + 1);
 }

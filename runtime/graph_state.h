@@ -315,7 +315,7 @@ struct SubmitCall {
 };
 
 struct FrameSlot {
-  std::vector<UniqueCommandPool> pools;   // by State::pool_families
+  std::vector<CommandPool> pools;         // by State::pool_families
   std::vector<VkCommandBuffer> commands;  // by State::chunks
   UniqueQueryPool queries;                // two timestamps a pass
   UniqueQueryPool statistics;             // one query a pass
@@ -328,7 +328,7 @@ struct FrameSlot {
 
 // Establishes entry states: a command buffer for Device::queue, then one for each other family that starts out owning something.
 struct Prologue {
-  std::vector<UniqueCommandPool> pools;  // by QueueMap::families
+  std::vector<CommandPool> pools;        // by QueueMap::families
   std::vector<VkCommandBuffer> commands;
   std::vector<UniqueFence> fences;       // only when validating
   std::vector<bool> fenced;
@@ -419,7 +419,8 @@ struct GraphInstance::State {
   bool imports_applied = false;  // to the barriers of `sized`
   uint64_t sized_at = 0;         // frames executed when `sized` was made
   std::vector<Index> imported;   // resources
-  std::vector<Index> host_passes;
+  std::vector<Index> host_passes, host_slots;  // side by side: a frame looks at the slots alone
+  std::vector<Index> choosing_passes;          // whose pipelines features choose
   uint32_t update_slots = 0;
   std::vector<double> wall_ms;  // by pass, with submit_per_pass
   DumpRequest dump;

@@ -62,8 +62,9 @@ Status check_features(GraphInstance::State& state, FrameInputs& inputs) {
     if (inputs.features[i] >= plan.features[i].values)
       return wrong("feature `" + std::string(plan.features[i].name) + "` has no value " + std::to_string(inputs.features[i]));
   decide_features(state, inputs);
-  for (const Pass& pass : plan.passes) {
-    if (pass.choice_count == 0 || (pass.guard & ~inputs.conditions) != 0) continue;
+  for (const Index index : state.choosing_passes) {
+    const Pass& pass = plan.passes[index];
+    if ((pass.guard & ~inputs.conditions) != 0) continue;
     if (plan.pipeline_choices[pass.first_choice + selected_choice(plan, pass, inputs)] == kNone)
       return wrong("the feature values given exclude each other in pass `" + std::string(pass.name) + "`");
   }
@@ -100,8 +101,8 @@ Status check_inputs(GraphInstance::State& state, FrameInputs& inputs) {
   RG_TRY(check_params(plan, inputs));
   RG_TRY(check_features(state, inputs));
   if (!state.host_passes.empty() && inputs.callbacks == nullptr) return wrong("no callbacks");
-  for (const Index pass : state.host_passes)
-    if (inputs.callbacks[plan.passes[pass].host_slot] == nullptr) return wrong("pass `" + std::string(plan.passes[pass].name) + "` has no callback");
+  for (size_t i = 0; i < state.host_slots.size(); ++i)
+    if (inputs.callbacks[state.host_slots[i]] == nullptr) return wrong("pass `" + std::string(plan.passes[state.host_passes[i]].name) + "` has no callback");
   if (inputs.updates.size() < state.update_slots) return wrong("too few updates");
   if (inputs.engine_sets.size() < plan.engine_sets.size()) return wrong("too few engine sets");
   RG_TRY(check_semaphores(state, inputs.waits, "waits for"));

@@ -92,7 +92,8 @@ ImportUse find_uses(const Plan& plan, Index slot) {
 
 // ---- objects ------------------------------------------------------------------------------------------------------
 
-Result<UniqueCommandPool> create_pool(const Context& context, uint32_t family) {
+Result<CommandPool> create_pool(const Context& context, uint32_t family) {
+  if (CommandPool spare = context.device.take_pool(family); spare.pool) return spare;
   VkCommandPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
   info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
@@ -100,16 +101,23 @@ Result<UniqueCommandPool> create_pool(const Context& context, uint32_t family) {
   VkCommandPool pool = VK_NULL_HANDLE;
   RG_TRY(check(context.vk().CreateCommandPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateCommandPool",
                context.plan.name));
-  return UniqueCommandPool(context.vk(), context.device.device, pool);
+  return CommandPool{family, UniqueCommandPool(context.vk(), context.device.device, pool), {}, 0};
 }
 
-Status allocate(const Context& context, VkCommandPool pool, VkCommandBuffer& commands) {
+Status allocate(const Context& context, CommandPool& pool, VkCommandBuffer& commands) {
+  if (pool.used < pool.commands.size()) {
+    commands = pool.commands[pool.used++];
+    return Done{};
+  }
   VkCommandBufferAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
-  info.commandPool = pool;
+  info.commandPool = pool.pool.get();
   info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
   info.commandBufferCount = 1;
-  return check(context.vk().AllocateCommandBuffers(context.device.device, &info, &commands), "vkAllocateCommandBuffers", context.plan.name);
+  RG_TRY(check(context.vk().AllocateCommandBuffers(context.device.device, &info, &commands), "vkAllocateCommandBuffers", context.plan.name));
+  pool.commands.push_back(commands);
+  ++pool.used;
+  return Done{};
 }
 
 Status create_fences(const Context& context, std::vector<UniqueFence>& fences, std::vector<bool>& fenced) {
@@ -154,12 +162,12 @@ Status create_slot_queries(const Context& context, FrameSlot& slot) {
 
 Status create_slot(const GraphInstance::State& state, FrameSlot& slot) {
   for (const uint32_t family : state.pool_families) {
-    Result<UniqueCommandPool> pool = create_pool(state.context, family);
+    Result<CommandPool> pool = create_pool(state.context, family);
     if (!pool) return pool.error();
     slot.pools.push_back(std::move(*pool));
   }
   slot.commands.resize(state.chunks.size());
-  for (size_t i = 0; i < state.chunks.size(); ++i) RG_TRY(allocate(state.context, slot.pools[state.chunks[i].pool].get(), slot.commands[i]));
+  for (size_t i = 0; i < state.chunks.size(); ++i) RG_TRY(allocate(state.context, slot.pools[state.chunks[i].pool], slot.commands[i]));
   RG_TRY(create_slot_queries(state.context, slot));
   return create_fences(state.context, slot.fences, slot.fenced);
 }
@@ -167,10 +175,10 @@ Status create_slot(const GraphInstance::State& state, FrameSlot& slot) {
 Status create_prologue(const Context& context, Prologue& prologue) {
   prologue.commands.resize(context.queues.families.size());
   for (size_t i = 0; i < context.queues.families.size(); ++i) {
-    Result<UniqueCommandPool> pool = create_pool(context, context.queues.families[i]);
+    Result<CommandPool> pool = create_pool(context, context.queues.families[i]);
     if (!pool) return pool.error();
     prologue.pools.push_back(std::move(*pool));
-    RG_TRY(allocate(context, prologue.pools.back().get(), prologue.commands[i]));
+    RG_TRY(allocate(context, prologue.pools.back(), prologue.commands[i]));
   }
   return create_fences(context, prologue.fences, prologue.fenced);
 }
@@ -218,8 +226,8 @@ Status create_frames(GraphInstance::State& state) {
 
 Status reset_slot(const GraphInstance::State& state, const FrameSlot& slot) {
   const Context& context = state.context;
-  for (const UniqueCommandPool& pool : slot.pools)
-    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, pool.get(), 0), "vkResetCommandPool", context.plan.name));
+  for (const CommandPool& pool : slot.pools)
+    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, pool.pool.get(), 0), "vkResetCommandPool", context.plan.name));
   if (!context.device.host_query_reset) return Done{};
   const auto passes = static_cast<uint32_t>(context.plan.passes.size());
   if (slot.queries) context.vk().ResetQueryPool(context.device.device, slot.queries.get(), 0, 2 * passes);

@@ -273,7 +273,7 @@ Status submit_parts(GraphInstance::State& state, const Sized& sized) {
   const Context& context = state.context;
   for (size_t part = 0; part < context.queues.families.size(); ++part) {
     const VkCommandBuffer commands = state.prologue.commands[part];
-    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, state.prologue.pools[part].get(), 0), "vkResetCommandPool", context.plan.name));
+    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, state.prologue.pools[part].pool.get(), 0), "vkResetCommandPool", context.plan.name));
     RG_TRY(begin_commands(context, commands));
     const bool recorded = part == 0 ? record_prologue(context, sized, commands, state.frame)
                                     : record_first_owner(context, sized, commands, state.frame, context.queues.families[part]);

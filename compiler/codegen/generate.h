@@ -12,7 +12,7 @@
 namespace rg::compiler {
 
 struct GeneratedFile {
-  std::string path;  // relative to the output folder
+  std::string path;  // relative to the output folder, except where said otherwise
   std::string text;
 };
 

@@ -10,10 +10,13 @@
 namespace rg::commands {
 namespace {
 
-bool write_dependencies(const BuildOptions& options, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics) {
+// What is asked for beside the folder.
+std::vector<compiler::GeneratedFile> other_files(const BuildOptions& options, const compiler::CompileResult& result) {
+  std::vector<compiler::GeneratedFile> files;
+  if (!options.plan_file.empty()) files.push_back(plan_file(options.plan_file, result));
   const std::string target = options.stamp.empty() ? options.folder + "/manifest.txt" : options.stamp;
-  if (!options.depfile.empty() && !write_file(options.depfile, depfile(target, result.read_files), diagnostics)) return false;
-  return options.stamp.empty() || touch_file(options.stamp, diagnostics);
+  if (!options.depfile.empty()) files.push_back({options.depfile, depfile(target, result.read_files)});
+  return files;
 }
 
 // The banner names the file alone, so that the same program gives the same bytes wherever it is compiled from.
@@ -66,11 +69,11 @@ int build_part(const BuildOptions& options) {
 
 }  // namespace
 
-bool write_plan_file(const std::string& path, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics) {
+compiler::GeneratedFile plan_file(const std::string& path, const compiler::CompileResult& result) {
   std::vector<Plan> plans;
   for (const compiler::CompiledGraph& graph : result.graphs)
     for (const compiler::FramePlan& frame : graph.plans) plans.push_back(frame.plan.view());
-  return write_file(path, compiler::emit_plan_file(plans), diagnostics);
+  return {path, compiler::emit_plan_file(plans)};
 }
 
 int build(const BuildOptions& options) {
@@ -79,9 +82,8 @@ int build(const BuildOptions& options) {
   const auto result = compile_or_report(options.file, with_banner(options));
   if (!result) return exit_input_wrong;
   dsl::Diagnostics diagnostics;
-  const auto written = write_output(options.folder, result->files, diagnostics);
-  if (written && !options.plan_file.empty() && !write_plan_file(options.plan_file, *result, diagnostics)) return finish(diagnostics, result->sources);
-  if (!written || !write_dependencies(options, *result, diagnostics)) return finish(diagnostics, result->sources);
+  const auto written = write_output(options.folder, result->files, diagnostics, other_files(options, *result));
+  if (!written || (!options.stamp.empty() && !touch_file(options.stamp, diagnostics))) return finish(diagnostics, result->sources);
   if (options.quiet) return exit_done;
   for (const std::string& name : written->changed) print(fmt::format("wrote   {}/{}\n", options.folder, name));
   for (const std::string& name : written->removed) print(fmt::format("removed {}/{}\n", options.folder, name));

@@ -96,8 +96,8 @@ void read_profile(compiler::CompileOptions& options, dsl::Diagnostics& diagnosti
 // compile() from disk with progress on a terminal; nullopt after printing what is wrong.
 std::optional<compiler::CompileResult> compile_or_report(const std::string& path, compiler::CompileOptions options);
 
-// The plans of all graphs as data, see compiler/codegen/plan_file.h; whole or not at all. False after reporting.
-bool write_plan_file(const std::string& path, const compiler::CompileResult& result, dsl::Diagnostics& diagnostics);
+// The plans of all graphs as data, see compiler/codegen/plan_file.h, to be written to `path`, which is not relative to the output folder.
+compiler::GeneratedFile plan_file(const std::string& path, const compiler::CompileResult& result);
 
 // Shows what is being worked on in one line of a terminal's stderr that the next call replaces; empty clears it. Does nothing elsewhere.
 void show_progress(std::string_view what);

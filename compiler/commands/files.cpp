@@ -240,7 +240,7 @@ dsl::ReadSource reader_for(const std::string& root_path) {
 }
 
 std::optional<Written> write_output(const std::string& folder_name, const std::vector<compiler::GeneratedFile>& files,
-                                    dsl::Diagnostics& diagnostics) {
+                                    dsl::Diagnostics& diagnostics, const std::vector<compiler::GeneratedFile>& others) {
   const fs::path folder = folder_name;
   const std::set<std::string> manifest = read_manifest(folder);
   std::vector<Replacement> replacements;
@@ -248,6 +248,8 @@ std::optional<Written> write_output(const std::string& folder_name, const std::v
   const std::string listing = manifest_text(files);
   bool good = prepare_changed(folder, files, manifest, replacements, written, diagnostics);
   if (good && current_text(folder / kManifest) != listing) good = prepare(folder / kManifest, listing, replacements, diagnostics);
+  for (const compiler::GeneratedFile& file : others)
+    if (good && current_text(file.path) != file.text) good = prepare(file.path, file.text, replacements, diagnostics);
   if (!good || !commit(replacements, diagnostics)) {
     discard(replacements);
     return std::nullopt;

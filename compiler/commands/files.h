@@ -26,10 +26,12 @@ struct Written {
 
 // Makes `folder` hold exactly `files`: writes what differs, removes what an earlier run wrote (by its manifest) and this one did not.
 // Everything is written beside its place first and then renamed, so a full disk or a missing permission is reported with the old
-// contents untouched. Files that rgc did not generate are never overwritten.
+// contents untouched. Files that rgc did not generate are never overwritten. `others` have paths of their own, are not listed, and are written with
+// the folder or, as the folder, not at all.
 //
 //   generated/manifest.txt    one relative path a line: what the next run may overwrite or remove
-std::optional<Written> write_output(const std::string& folder, const std::vector<compiler::GeneratedFile>& files, dsl::Diagnostics& diagnostics);
+std::optional<Written> write_output(const std::string& folder, const std::vector<compiler::GeneratedFile>& files, dsl::Diagnostics& diagnostics,
+                                    const std::vector<compiler::GeneratedFile>& others = {});
 
 // One file, whole or not at all; false after reporting.
 bool write_file(const std::string& path, const std::string& text, dsl::Diagnostics& diagnostics);

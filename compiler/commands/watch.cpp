@@ -88,6 +88,12 @@ void say(const WatchOptions& options, const std::string& text) {
   std::fflush(stdout);
 }
 
+bool write_results(const WatchOptions& options, const compiler::GeneratedFile& plans, const compiler::CompileResult& result,
+                   dsl::Diagnostics& diagnostics) {
+  if (options.folder.empty()) return write_file(plans.path, plans.text, diagnostics);
+  return write_output(options.folder, result.files, diagnostics, {plans}).has_value();
+}
+
 // Writes the files, or says what is wrong and leaves them as they are.
 Marks compile_once(const WatchOptions& options) {
   const auto start = Clock::now();
@@ -100,12 +106,11 @@ Marks compile_once(const WatchOptions& options) {
   read_profile(compile, diagnostics);
   const compiler::CompileResult result = compiler::compile(options.file, reader.reader(), compile, diagnostics);
   if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {options.file});
-  if (!diagnostics.has_errors() && !options.folder.empty()) write_output(options.folder, result.files, diagnostics);
-  const std::string plan_file = plan_file_of(options);
-  if (!diagnostics.has_errors()) write_plan_file(plan_file, result, diagnostics);
+  const std::string path = plan_file_of(options);
+  if (!diagnostics.has_errors()) write_results(options, plan_file(path, result), result, diagnostics);
   const bool good = finish(diagnostics, result.sources) == exit_done;
   const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
-  say(options, fmt::format("{}: {}, {} ms\n", plan_file, good ? "up to date" : "left as it is", ms));
+  say(options, fmt::format("{}: {}, {} ms\n", path, good ? "up to date" : "left as it is", ms));
   return reader.take();
 }
 

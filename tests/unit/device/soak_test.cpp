@@ -1,7 +1,10 @@
-// Random operations on a real driver, validated: resizes, other plans, other threads and frames in flight, turns, active extents. 300 by default, 10,000 with RGC_LONG.
+// Random operations on a real driver, validated: resizes, other plans, other threads and frames in flight, turns, invalidations. 300 by default, 10,000 with RGC_LONG.
+#include <cstdio>
 #include <fstream>
+#include <map>
 #include <random>
 
+#include "runtime/device_state.h"
 #include "tests/unit/device/fixture.h"
 #include "tests/unit/runtime/plans.h"
 
@@ -54,6 +57,8 @@ class Walk {
         return succeed();
       case 3:
         return go_back();
+      case 4:
+        return invalidate();
       default:
         return frames(1 + random_() % 3);
     }
@@ -90,6 +95,12 @@ class Walk {
     before_.reset();  // its history is another's now
     expected_ = 7;
   }
+  void invalidate() {
+    const Status done = current_->invalidate(variants_.plain.state);
+    ASSERT_TRUE(done) << done.error().message;
+    expected_ = 7;
+    frames(1);  // another instance may go on before this one does
+  }
   // Another variant, another number of threads and of frames in flight; the one before is kept for a while.
   void succeed() {
     options_.threads = 1 + static_cast<uint32_t>(random_() % 3);
@@ -115,24 +126,88 @@ class Walk {
   uint32_t expected_ = 7;
 };
 
-TEST_F(Soak, RandomOperationsAreSilentAndLeaveNothing) {
-  RG_OPEN_DEVICE(device, true);
+int operations() {
   const char* text = std::getenv("RGC_LONG");
-  const int operations = text != nullptr && *text == '1' ? 10000 : 300;
-  uint64_t early = 0;
+  return text != nullptr && *text == '1' ? 10000 : 300;
+}
+
+// Bytes of device memory that are allocated now, through the device's function table.
+class DeviceMemory {
+ public:
+  explicit DeviceMemory(Device& device) {
+    DeviceFunctions& vk = device.state().vk;
+    allocate = vk.AllocateMemory, release = vk.FreeMemory;
+    sizes.clear();
+    vk.AllocateMemory = [](VkDevice on, const VkMemoryAllocateInfo* info, const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+      const VkResult result = allocate(on, info, allocator, memory);
+      if (result == VK_SUCCESS) sizes[*memory] = info->allocationSize;
+      return result;
+    };
+    vk.FreeMemory = [](VkDevice on, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+      sizes.erase(memory);
+      release(on, memory, allocator);
+    };
+  }
+  static uint64_t bytes() {
+    uint64_t sum = 0;
+    for (const auto& [memory, size] : sizes) sum += size;
+    return sum;
+  }
+
+ private:
+  static inline PFN_vkAllocateMemory allocate = nullptr;
+  static inline PFN_vkFreeMemory release = nullptr;
+  static inline std::map<VkDeviceMemory, VkDeviceSize> sizes;
+};
+
+struct Figures {
+  uint64_t early_kib = 0, late_kib = 0, device_early = 0, device_most = 0;
+};
+
+// Operates, and looks at memory after a third and at the end; the picture is right at the end.
+void soak(Device& device, Figures& out) {
+  const DeviceMemory memory(device);
+  const int count = operations();
   {
     Walk run(device, 1);
-    for (int i = 0; i < operations; ++i) {
+    for (int i = 0; i < count; ++i) {
       ASSERT_NO_FATAL_FAILURE(run.operate()) << "operation " << i;
-      if (i == operations / 3) early = resident_kib();
+      if (i == count / 3) out.early_kib = resident_kib(), out.device_early = out.device_most;
+      out.device_most = std::max(out.device_most, DeviceMemory::bytes());
     }
     ASSERT_NO_FATAL_FAILURE(run.finish());
+    out.late_kib = resident_kib();
   }
-  const uint64_t late = resident_kib();
-  RecordProperty("rss_kib_after_a_third", static_cast<int>(early));
-  RecordProperty("rss_kib_at_the_end", static_cast<int>(late));
-  // Measured with the validation layer loaded: about 7 KiB an operation; whose they are, the layer's or ours, is not established. More must not be lost.
-  EXPECT_LT(late, early + early / 4 + 16 * 1024 + 12 * static_cast<uint64_t>(operations));
+  EXPECT_EQ(DeviceMemory::bytes(), 0u);
+}
+
+void record(const Figures& figures) {
+  testing::Test::RecordProperty("rss_kib_after_a_third", static_cast<int>(figures.early_kib));
+  testing::Test::RecordProperty("rss_kib_at_the_end", static_cast<int>(figures.late_kib));
+  testing::Test::RecordProperty("device_bytes_at_most", static_cast<int>(figures.device_most));
+  std::printf("%d operations: RSS %llu KiB after a third, %llu KiB at the end; device memory at most %llu bytes\n", operations(),
+              static_cast<unsigned long long>(figures.early_kib), static_cast<unsigned long long>(figures.late_kib),
+              static_cast<unsigned long long>(figures.device_most));
+}
+
+TEST_F(Soak, RandomOperationsLeaveMemoryFlat) {
+  RG_OPEN_DEVICE(device, false);
+  Figures figures;
+  ASSERT_NO_FATAL_FAILURE(soak(device, figures));
+  record(figures);
+  EXPECT_LT(figures.late_kib, figures.early_kib + 4 * 1024);
+  EXPECT_LE(figures.device_most, 2 * figures.device_early);
+}
+
+// Of every object that was ever made the validation layer of Debian 12 keeps something: about 1.2 KiB an operation here, none of it allocated by us (heaptrack), and
+// a loop of vkAllocateCommandBuffers and vkFreeCommandBuffers alone makes it grow by 3.2 KiB a round. Pools are therefore used again while it watches.
+TEST_F(Soak, RandomOperationsAreSilentAndLeaveNothing) {
+  RG_OPEN_DEVICE(device, true);
+  Figures figures;
+  ASSERT_NO_FATAL_FAILURE(soak(device, figures));
+  record(figures);
+  EXPECT_LT(figures.late_kib, figures.early_kib + 8 * 1024 + 3 * static_cast<uint64_t>(operations()));
+  EXPECT_LE(figures.device_most, 2 * figures.device_early);
   EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
 }
 

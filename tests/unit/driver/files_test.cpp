@@ -121,6 +121,21 @@ TEST_F(Files, AFailureLeavesEverythingAsItWas) {
   for (const auto& entry : fs::directory_iterator(path("out"))) EXPECT_FALSE(entry.path().string().ends_with(".tmp"));
 }
 
+TEST_F(Files, OthersAreWrittenWithTheFolderOrNotAtAll) {
+  const std::string plans = path("elsewhere/frame.rgplan");
+  ASSERT_TRUE(write_output(path("out"), {{"a.h", "1"}}, diagnostics_, {{plans, "p1"}}));
+  EXPECT_EQ(get("elsewhere/frame.rgplan"), "p1");
+  EXPECT_EQ(get("out/manifest.txt").find("rgplan"), std::string::npos);
+  fs::create_directory(path("in_the_way"));
+  EXPECT_FALSE(write_output(path("out"), {{"a.h", "2"}}, diagnostics_, {{plans, "p2"}, {path("in_the_way"), "x"}}));
+  EXPECT_EQ(get("out/a.h"), "1");
+  EXPECT_EQ(get("elsewhere/frame.rgplan"), "p1");
+  fs::create_directory(path("out/b.h"));
+  EXPECT_FALSE(write_output(path("out"), {{"b.h", "2"}}, diagnostics_, {{plans, "p2"}}));
+  EXPECT_EQ(get("elsewhere/frame.rgplan"), "p1");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("elsewhere")), {}), 1);  // nothing temporary is left
+}
+
 TEST_F(Files, OutputFolderMustBeAFolder) {
   put("out", "mine");
   EXPECT_FALSE(write_output(path("out"), {{"a.h", "1"}}, diagnostics_));
