@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compiler/check_queues.h"
+#include "compiler/check_switches.h"
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
 #include "compiler/fusion/fusion_figures.h"
@@ -13,7 +14,6 @@
 #include "compiler/merge_features.h"
 #include "compiler/profiles.h"
 #include "compiler/variant_space.h"
-#include "dsl/closest.h"
 
 namespace rg::compiler {
 namespace {
@@ -97,8 +97,8 @@ CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::Rea
   return graph;
 }
 
-// One machine's part of the shaders, or the list of all parts.
-void run_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options, const ShaderCache* cache,
+// One machine's part of the shaders of a graph, or the list of all parts.
+void run_graph_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options, const ShaderCache* cache,
                CompileResult& result, dsl::Diagnostics& diagnostics) {
   const auto configurations = expand_configurations(result.program, id, options.fixed_features, options.max_plans, diagnostics);
   const VariantSpace space = find_variant_space(result.program, id, configurations, diagnostics);
@@ -110,6 +110,13 @@ void run_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::G
   }
   build_shard(result.program, id, space, reader, result.sources, {cache, options.workers, options.progress}, options.shard, options.shards,
               diagnostics);
+}
+
+CompileResult run_tasks(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, const ShaderCache* cache, CompileResult result,
+                        dsl::Diagnostics& diagnostics) {
+  for (size_t g = 0; g < result.program.graphs.size(); ++g) run_graph_tasks(root_path, read, dsl::GraphId{g}, options, cache, result, diagnostics);
+  if (cache) result.cache = settle(*cache, diagnostics);
+  return result;
 }
 
 std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph& graph, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
@@ -131,32 +138,15 @@ std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph
   return plans;
 }
 
-}  // namespace
-
-namespace {
-
-// Names that switches give have to exist, or nothing would be switched off.
-void check_switches(const std::string& root_path, const dsl::Program& program, const PlanOptions& options, dsl::Diagnostics& diagnostics) {
-  const auto check = [&](const char* flag, const std::set<std::string>& names, auto rows_of) {
-    for (const std::string& name : names) {
-      const auto has = [&](const auto& rows) { return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; }); };
-      const bool known = has(program.graphs) ||
-                         std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
-      if (known) continue;
-      dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::UnknownSubject, {}, {std::string(flag) + "=" + name, root_path});
-      std::vector<std::string_view> all;
-      for (const dsl::Graph& graph : program.graphs)
-        for (const auto& row : rows_of(graph)) all.push_back(row.name);
-      if (const std::string guess = dsl::closest(name, all); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
-    }
-  };
-  const auto passes = [](const dsl::Graph& graph) -> const auto& { return graph.passes; };
-  const auto resources = [](const dsl::Graph& graph) -> const auto& { return graph.resources; };
-  check("--no-aliasing", options.no_aliasing, resources);
-  check("--no-discard", options.no_discard, resources);
-  check("--no-async", options.no_async, passes);
-  check("--no-reorder", options.no_reorder, passes);
-  check("--no-merge", options.no_merge, passes);
+// Text to program, with what target profiles promise; their paths.
+std::vector<std::string> load(const std::string& root_path, const dsl::ReadSource& read, CompileResult& result, dsl::Diagnostics& diagnostics) {
+  dsl::FrontEndResult front = dsl::load_program(root_path, read, diagnostics);
+  result.sources = std::move(front.files);
+  if (diagnostics.has_errors()) return {};
+  std::vector<std::string> profiles;
+  for (const dsl::Profile& profile : front.program.profiles) profiles.push_back(profile.name);
+  result.program = read_profiles(std::move(front.program), shader_reader(root_path, read), diagnostics);
+  return profiles;
 }
 
 }  // namespace
@@ -167,14 +157,8 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
 
   // Text to program: lex, parse, check, with all imports.
   tell(options, root_path);
-  dsl::FrontEndResult front = dsl::load_program(root_path, read, diagnostics);
-  result.sources = std::move(front.files);
-  if (diagnostics.has_errors()) return result;
-  result.program = std::move(front.program);
-  std::vector<std::string> profiles;
-  for (const dsl::Profile& profile : result.program.profiles) profiles.push_back(profile.name);
-  result.program = read_profiles(std::move(result.program), shader_reader(root_path, read), diagnostics);
-  if (options.until == Until::program) return result;
+  const std::vector<std::string> profiles = load(root_path, read, result, diagnostics);
+  if (diagnostics.has_errors() || options.until == Until::program) return result;
 
   // Which kernels serve which tiles; passes with a spectrum become those that run it.
   const std::optional<ShaderCache> cache =
@@ -184,20 +168,14 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
 
   // Features that only remove passes become conditions.
-  for (size_t g = 0; g < result.program.graphs.size(); ++g)
-    result.program = merge_features(std::move(result.program), dsl::GraphId{g}, options.fixed_features);
+  result.program = merge_features(std::move(result.program), options.fixed_features);
 
   // Blocks become kernels, one by one or several together.
   const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
   if (diagnostics.has_errors()) return result;
 
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
-  if (options.list_tasks || options.shards > 0) {
-    for (size_t g = 0; g < result.program.graphs.size(); ++g)
-      run_tasks(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics);
-    if (cache) result.cache = settle(*cache, diagnostics);
-    return result;
-  }
+  if (options.list_tasks || options.shards > 0) return run_tasks(root_path, read, options, cache ? &*cache : nullptr, std::move(result), diagnostics);
   for (size_t g = 0; g < result.program.graphs.size(); ++g)
     result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics));
   if (cache) result.cache = settle(*cache, diagnostics);
@@ -212,10 +190,8 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
+  // What switches name, and queues that passes insist on.
   check_switches(root_path, result.program, options.plan, diagnostics);
-  if (diagnostics.has_errors()) return result;
-
-  // Queues that passes insist on.
   for (const CompiledGraph& graph : result.graphs) check_queues(result.program, graph.graph, graph.configurations, diagnostics);
   if (diagnostics.has_errors()) return result;
 

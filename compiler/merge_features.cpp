@@ -176,4 +176,9 @@ dsl::Program merge_features(dsl::Program program, dsl::GraphId graph, const std:
   return program;
 }
 
+dsl::Program merge_features(dsl::Program program, const std::vector<std::string>& fixed) {
+  for (size_t graph = 0; graph < program.graphs.size(); ++graph) program = merge_features(std::move(program), dsl::GraphId{graph}, fixed);
+  return program;
+}
+
 }  // namespace rg::compiler

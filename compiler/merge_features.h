@@ -19,6 +19,7 @@ namespace rg::compiler {
 // in `fixed` ("NAME=VALUE") are left alone, and so are all once the combinations are too many to look at, or the program has 64 conditions.
 // O(features * combinations * planning's first phases).
 dsl::Program merge_features(dsl::Program program, dsl::GraphId graph, const std::vector<std::string>& fixed);
+dsl::Program merge_features(dsl::Program program, const std::vector<std::string>& fixed);  // all graphs
 
 // Features that conditions of passes of the graph follow from.
 std::vector<bool> features_of_conditions(const dsl::Program& program, const dsl::Graph& graph);

@@ -13,8 +13,8 @@ constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "p
 constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn"};
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
-                                            "clear",  "fill",   "host",   "after",    "keep",  "layout", "fullscreen", "features", "spectrum",
-                                            "with",   "block",  "multiview"};
+                                            "clear",  "fill",   "host",   "after",    "keep",  "fullscreen", "features", "spectrum",
+                                            "with",   "block"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {
@@ -47,6 +47,10 @@ uint32_t edit_distance(std::string_view a, std::string_view b) {
 bool begins_declaration(std::string_view word) { return contains(kDeclarations, word); }
 bool begins_item(std::string_view word) { return contains(kItems, word); }
 bool begins_statement(std::string_view word) { return contains(kStatements, word); }
+
+std::string closest_declaration(std::string_view word) { return closest(word, {std::begin(kDeclarations), std::end(kDeclarations)}); }
+std::string closest_item(std::string_view word) { return closest(word, {std::begin(kItems), std::end(kItems)}); }
+std::string closest_statement(std::string_view word) { return closest(word, {std::begin(kStatements), std::end(kStatements)}); }
 
 std::string closest(std::string_view word, const std::vector<std::string_view>& candidates) {
   constexpr size_t kLongest = 64;

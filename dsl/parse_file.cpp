@@ -330,7 +330,7 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
 void complain_about_item(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("`image`, `buffer`, `pass` or another item of a graph");
   Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn"});
+  const std::string guess = closest_item(parser.word());
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
@@ -381,8 +381,7 @@ bool rejoin_graph(Parser& parser, File& file) {
 void complain_about_declaration(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), {"module", "import", "target", "private", "const", "extent", "struct", "interface", "sampler",
-                                                    "state", "feature", "condition", "set", "graph", "technique", "spectrum"});
+  const std::string guess = closest_declaration(parser.word());
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }

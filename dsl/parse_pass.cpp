@@ -256,12 +256,8 @@ ast::Statement parse_other(Parser& parser) {
 
 void complain_about_statement(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
-  static const std::vector<std::string_view> kWords = {"read",   "write",  "update",     "atomic", "color",    "depth", "stencil", "resolve",
-                                                       "params", "shader", "fullscreen", "state",  "dispatch", "draw",  "bind",    "copy",
-                                                       "blit",   "clear",  "fill",       "host",   "after",    "keep",  "features", "spectrum",
-                                                       "with",   "block",  "multiview"};
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), kWords);
+  const std::string guess = closest_statement(parser.word());
   if (!guess.empty()) diagnostic.fix(parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }

@@ -66,6 +66,9 @@ struct Nested {  // counts one level of nesting; complains when it is too deep
 bool begins_declaration(std::string_view word);
 bool begins_item(std::string_view word);
 bool begins_statement(std::string_view word);
+std::string closest_declaration(std::string_view word);  // did you mean; empty: nothing near
+std::string closest_item(std::string_view word);
+std::string closest_statement(std::string_view word);
 
 // Skips to the next token that can begin something at this level, or to the `}` that closes it.
 enum class Level : uint8_t { file, graph, pass, fields };

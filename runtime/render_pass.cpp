@@ -318,10 +318,6 @@ void fill_info(const Sized& sized, RenderingTable& table) {
   cover(table, table.area.extent);
 }
 
-}  // namespace
-
-namespace {
-
 Status fill_table(const Context& context, Sized& sized, const TableTarget& target) {
   const Rendering& rendering = target.rendering;
   RenderingTable& table = target.table;

@@ -5,17 +5,11 @@
 #include <fstream>
 
 #include "examples/demo/dump_file.h"
+#include "runtime/plan_interface.h"
 #include "runtime/profile.h"
 
 namespace rg::demo {
 namespace {
-
-template <class Row>
-Index find_named(std::span<const Row> rows, std::string_view name) {
-  for (Index i = 0; i < rows.size(); ++i)
-    if (rows[i].name == name) return i;
-  return kNone;
-}
 
 template <class Row>
 std::string names_of(std::span<const Row> rows) {
@@ -53,7 +47,7 @@ Status write_text(const std::string& path, const std::string& text) {
 Result<DumpPoint> find_dump(const Plan& plan, const std::string& text) {
   const size_t dot = text.find('.');
   if (dot == std::string::npos) return Error{ErrorCode::invalid_argument, "`" + text + "` is not of the form PASS.resource"};
-  DumpPoint point{find_named(plan.passes, text.substr(0, dot)), find_named(plan.resources, text.substr(dot + 1)), text};
+  DumpPoint point{find_pass(plan, text.substr(0, dot)), find_resource(plan, text.substr(dot + 1)), text};
   if (point.pass == kNone) return Error{ErrorCode::invalid_argument, "there is no pass `" + text.substr(0, dot) + "`; there are " + names_of(plan.passes)};
   if (point.resource == kNone)
     return Error{ErrorCode::invalid_argument, "there is no resource `" + text.substr(dot + 1) + "`; there are " + names_of(plan.resources)};

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <optional>
 
 #include "compiler/compile.h"
 #include "compiler/verify/verify.h"
@@ -38,20 +39,22 @@ void expect_proved(const compiler::CompileResult& result) {
         ADD_FAILURE() << finding.text;
 }
 
-// The words of the one buffer that is read back, after as many frames. Empty where there is no device.
-std::vector<uint32_t> run(const Files& files, uint32_t frames = 1) {
+using Words = std::vector<uint32_t>;
+
+// The words of the one buffer that is read back, after as many frames; none where something failed. No value where there is no device.
+std::optional<Words> run(const Files& files, uint32_t frames = 1) {
   const compiler::CompileResult result = compile_files(files);
-  if (result.graphs.empty() || result.graphs[0].plans.empty()) return {};
+  if (result.graphs.empty() || result.graphs[0].plans.empty()) return Words{};
   expect_proved(result);
   auto device = Device::create({});
   if (!device) {
     if (std::getenv("RGC_REQUIRE_GPU")) ADD_FAILURE() << device.error().message;
-    return {};
+    return std::nullopt;
   }
   const Plan plan = result.graphs[0].plans[0].plan.view();
   auto graph = GraphInstance::create(*device, plan, {});
   EXPECT_TRUE(graph) << graph.error().message;
-  if (!graph) return {};
+  if (!graph) return Words{};
   for (uint32_t frame = 0; frame < frames; ++frame) {
     const Status status = graph->execute({});
     EXPECT_TRUE(status) << status.error().message;
@@ -59,16 +62,17 @@ std::vector<uint32_t> run(const Files& files, uint32_t frames = 1) {
   for (uint32_t resource = 0; resource < plan.resources.size(); ++resource) {
     if (plan.resources[resource].lifetime != Lifetime::readback) continue;
     const auto bytes = graph->readback(resource);
+    EXPECT_TRUE(bytes) << bytes.error().message;
     if (!bytes) continue;
-    std::vector<uint32_t> words((*bytes).size() / 4);
+    Words words((*bytes).size() / 4);
     std::memcpy(words.data(), (*bytes).data(), words.size() * 4);
     return words;
   }
-  return {};
+  return Words{};
 }
 
 TEST(Constructs, InputsAreTexelsOfTheirPixel) {
-  const std::vector<uint32_t> words = run({{"frame.rg", R"(
+  const auto found = run({{"frame.rg", R"(
 graph frame() {
   image  values : r32ui 8x8
   image  eyes   : r32ui 8x8
@@ -82,11 +86,14 @@ graph frame() {
                                            {"show.comp",
                                             "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
                                             "  shown[8 * at.y + at.x] = texelFetch(eyes, at, 0).x; }"}});
+  if (!found) GTEST_SKIP() << "no device";
+  const Words& words = *found;
+  ASSERT_EQ(words.size(), 64u);
   for (uint32_t i = 0; i < words.size(); ++i) EXPECT_EQ(words[i], i * 10 + 1) << i;
 }
 
 TEST(Constructs, ScalarBlocksHaveNoPadding) {
-  const std::vector<uint32_t> words = run({{"frame.rg", R"(
+  const auto found = run({{"frame.rg", R"(
 struct Inner scalar { a: vec3 }
 struct Particle scalar { at: vec3  turn: mat3  ages: f32[3]  inner: Inner[2] }
 graph frame() {
@@ -99,13 +106,14 @@ graph frame() {
                                             "  for (int c = 0; c < 3; ++c) particles[i].turn[c] = b + 3.0 + float(3 * c) + vec3(0.0, 1.0, 2.0);\n"
                                             "  for (int k = 0; k < 3; ++k) particles[i].ages[k] = b + 12.0 + float(k);\n"
                                             "  for (int k = 0; k < 2; ++k) particles[i].inner[k].a = b + 15.0 + float(3 * k) + vec3(0.0, 1.0, 2.0); }"}});
-  if (words.empty()) GTEST_SKIP();
+  if (!found) GTEST_SKIP() << "no device";
+  const Words& words = *found;
   ASSERT_EQ(words.size(), 42u);
   for (uint32_t i = 0; i < words.size(); ++i) EXPECT_EQ(std::bit_cast<float>(words[i]), float((i / 21) * 100 + i % 21)) << i;
 }
 
 TEST(Constructs, DepthIsResolvedAtTheEndOfARendering) {
-  const std::vector<uint32_t> words = run({{"frame.rg", R"(
+  const auto found = run({{"frame.rg", R"(
 state far { depth test always }
 graph frame() {
   image  many  : d32f 8x8 samples 4
@@ -117,11 +125,14 @@ graph frame() {
                                            {"draw.frag", "void main() { gl_FragDepth = floor(gl_FragCoord.x) / 16.0; }"},
                                            {"show.comp",
                                             "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(depth, at, 0).x; }"}});
+  if (!found) GTEST_SKIP() << "no device";
+  const Words& words = *found;
+  ASSERT_EQ(words.size(), 64u);
   for (uint32_t i = 0; i < words.size(); ++i) EXPECT_EQ(std::bit_cast<float>(words[i]), float(i % 8) / 16.0f) << i;
 }
 
 TEST(Constructs, FamiliesBundlesAndInstancesAddUp) {
-  const std::vector<uint32_t> words = run({{"frame.rg", R"(
+  const auto found = run({{"frame.rg", R"(
 technique twice(buffer source: u32, inout buffer target: u32) {
   bundle both {
     shader "twice.comp" group 4 1 1
@@ -141,11 +152,14 @@ graph frame() {
   assert live(add[1].once[0][1])
 })"},
                                            {"twice.comp", "void main() { uint i = gl_GlobalInvocationID.x; target[i] += source[i] * (i + 1u); }"}});
+  if (!found) GTEST_SKIP() << "no device";
+  const Words& words = *found;
+  ASSERT_EQ(words.size(), 4u);
   for (uint32_t i = 0; i < words.size(); ++i) EXPECT_EQ(words[i], 2 * (1 + 2) * (i + 1)) << i;
 }
 
 TEST(Constructs, HistoryReachesAsFarBackAsDeclared) {
-  const std::vector<uint32_t> words = run({{"frame.rg", R"(
+  const auto found = run({{"frame.rg", R"(
 graph frame() {
   buffer count : u32[1] history 3 init clear 7
   buffer shown : u32[4] readback
@@ -162,8 +176,10 @@ graph frame() {
                                            {"step.comp", "void main() { count[0] = count_prev[0] + 1u; }"},
                                            {"show.comp", "void main() { shown[0] = count[0]; shown[1] = count_prev[0]; shown[2] = count_prev3[0]; shown[3] = 1u; }"}},
                                           5);
-  if (words.empty()) GTEST_SKIP();
-  EXPECT_EQ(words, (std::vector<uint32_t>{12, 11, 9, 1}));
+  if (!found) GTEST_SKIP() << "no device";
+  const Words& words = *found;
+  ASSERT_EQ(words.size(), 4u);
+  EXPECT_EQ(words, (Words{12, 11, 9, 1}));
 }
 
 }  // namespace

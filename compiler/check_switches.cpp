@@ -1,0 +1,32 @@
+#include "compiler/check_switches.h"
+
+#include <algorithm>
+#include <set>
+
+#include "dsl/closest.h"
+
+namespace rg::compiler {
+
+void check_switches(const std::string& root_path, const dsl::Program& program, const PlanOptions& options, dsl::Diagnostics& diagnostics) {
+  const auto check = [&](const char* flag, const std::set<std::string>& names, auto rows_of) {
+    for (const std::string& name : names) {
+      const auto has = [&](const auto& rows) { return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; }); };
+      const bool known = has(program.graphs) ||
+                         std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
+      if (known) continue;
+      dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::UnknownSubject, {}, {std::string(flag) + "=" + name, root_path});
+      std::vector<std::string_view> all;
+      for (const dsl::Graph& graph : program.graphs)
+        for (const auto& row : rows_of(graph)) all.push_back(row.name);
+      if (const std::string guess = dsl::closest(name, all); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
+    }
+  };
+  const auto passes = [](const dsl::Graph& graph) -> const auto& { return graph.passes; };
+  const auto resources = [](const dsl::Graph& graph) -> const auto& { return graph.resources; };
+  check("--no-aliasing", options.no_aliasing, resources);
+  check("--no-discard", options.no_discard, resources);
+  check("--no-async", options.no_async, passes);
+  check("--no-reorder", options.no_reorder, passes);
+  check("--no-merge", options.no_merge, passes);
+}
+}  // namespace rg::compiler
