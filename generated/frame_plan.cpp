@@ -5,16 +5,15 @@
 #include <string_view>
 
 #include "shaders/rgc_mesh_cull.comp.spv.h"
-#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
-#include "shaders/passes_geometry_sun_world.vert.spv.h"
-#include "shaders/passes_geometry_sun_props.vert.spv.h"
-#include "shaders/passes_geometry_lamp_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_props.vert.spv.h"
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
+#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
+#include "shaders/passes_geometry_sun_world.vert.spv.h"
+#include "shaders/passes_geometry_sun_props.vert.spv.h"
+#include "shaders/passes_geometry_lamp_world.vert.spv.h"
 #include "shaders/passes_fog_fog_cull.comp.spv.h"
-#include "shaders/rgc_froxel_fog.merged.comp.spv.h"
 #include "shaders/passes_culling_zbin_build.comp.spv.h"
 #include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/passes_culling_tile_cull.comp.spv.h"
@@ -22,6 +21,7 @@
 #include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.frag.spv.h"
+#include "shaders/rgc_froxel_fog.merged.comp.spv.h"
 #include "shaders/passes_culling_zbin_pack.comp.spv.h"
 #include "shaders/passes_culling_light_cull.comp.spv.h"
 #include "shaders/passes_lighting_ambient_occlusion.comp.spv.h"
@@ -39,11 +39,11 @@
 #include "shaders/passes_post_resolve_temporal.comp.spv.h"
 #include "shaders/passes_post_bloom_first.comp.spv.h"
 #include "shaders/passes_post_bloom_down.comp.spv.h"
-#include "shaders/passes_debug_debug_view.comp.spv.h"
+#include "shaders/passes_post_bloom_up.comp.spv.h"
 #include "shaders/passes_post_luminance.comp.spv.h"
 #include "shaders/passes_post_luminance.comp.2.spv.h"
+#include "shaders/passes_debug_debug_view.comp.spv.h"
 #include "shaders/passes_post_expose.comp.spv.h"
-#include "shaders/passes_post_bloom_up.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
 #include "shaders/passes_post_tonemap.frag.spv.h"
 
@@ -69,148 +69,147 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::ceil_div, .a = 9, .b = 4},  // 12
     {.op = ExprOp::mul, .a = 10, .b = 11},  // 13
     {.op = ExprOp::mul, .a = 13, .b = 12},  // 14
-    {.op = ExprOp::mul, .a = 14, .b = 12},  // 15
-    {.op = ExprOp::constant, .value = 16},  // 16
-    {.op = ExprOp::mul, .a = 15, .b = 16},  // 17
-    {.op = ExprOp::constant, .value = 8},  // 18
-    {.op = ExprOp::ceil_div, .a = 1, .b = 18},  // 19
-    {.op = ExprOp::ceil_div, .a = 2, .b = 18},  // 20
-    {.op = ExprOp::mul, .a = 19, .b = 20},  // 21
-    {.op = ExprOp::mul, .a = 21, .b = 16},  // 22
-    {.op = ExprOp::ceil_div, .a = 1, .b = 16},  // 23
-    {.op = ExprOp::ceil_div, .a = 2, .b = 16},  // 24
-    {.op = ExprOp::mul, .a = 23, .b = 24},  // 25
-    {.op = ExprOp::constant, .value = 2},  // 26
-    {.op = ExprOp::floor_div, .a = 1, .b = 26},  // 27
-    {.op = ExprOp::floor_div, .a = 2, .b = 26},  // 28
-    {.op = ExprOp::constant, .value = 128},  // 29
-    {.op = ExprOp::constant, .value = 1},  // 30
-    {.op = ExprOp::constant},  // 31
-    {.op = ExprOp::constant, .value = 16384},  // 32
-    {.op = ExprOp::constant, .value = 32768},  // 33
-    {.op = ExprOp::constant, .value = 49152},  // 34
-    {.op = ExprOp::constant, .value = 65536},  // 35
-    {.op = ExprOp::constant, .value = 81920},  // 36
-    {.op = ExprOp::constant, .value = 98304},  // 37
-    {.op = ExprOp::constant, .value = 114688},  // 38
-    {.op = ExprOp::mip, .a = 19, .b = 30},  // 39
-    {.op = ExprOp::mip, .a = 20, .b = 30},  // 40
-    {.op = ExprOp::mip, .a = 19, .b = 26},  // 41
-    {.op = ExprOp::mip, .a = 20, .b = 26},  // 42
-    {.op = ExprOp::constant, .value = 3},  // 43
-    {.op = ExprOp::mip, .a = 19, .b = 43},  // 44
-    {.op = ExprOp::mip, .a = 20, .b = 43},  // 45
+    {.op = ExprOp::constant, .value = 16},  // 15
+    {.op = ExprOp::mul, .a = 14, .b = 15},  // 16
+    {.op = ExprOp::constant, .value = 8},  // 17
+    {.op = ExprOp::ceil_div, .a = 1, .b = 17},  // 18
+    {.op = ExprOp::ceil_div, .a = 2, .b = 17},  // 19
+    {.op = ExprOp::mul, .a = 18, .b = 19},  // 20
+    {.op = ExprOp::mul, .a = 20, .b = 15},  // 21
+    {.op = ExprOp::ceil_div, .a = 1, .b = 15},  // 22
+    {.op = ExprOp::ceil_div, .a = 2, .b = 15},  // 23
+    {.op = ExprOp::mul, .a = 22, .b = 23},  // 24
+    {.op = ExprOp::constant, .value = 2},  // 25
+    {.op = ExprOp::floor_div, .a = 1, .b = 25},  // 26
+    {.op = ExprOp::floor_div, .a = 2, .b = 25},  // 27
+    {.op = ExprOp::constant, .value = 128},  // 28
+    {.op = ExprOp::constant, .value = 1},  // 29
+    {.op = ExprOp::constant},  // 30
+    {.op = ExprOp::constant, .value = 16384},  // 31
+    {.op = ExprOp::constant, .value = 32768},  // 32
+    {.op = ExprOp::constant, .value = 49152},  // 33
+    {.op = ExprOp::constant, .value = 65536},  // 34
+    {.op = ExprOp::constant, .value = 81920},  // 35
+    {.op = ExprOp::constant, .value = 98304},  // 36
+    {.op = ExprOp::constant, .value = 114688},  // 37
+    {.op = ExprOp::mip, .a = 18, .b = 29},  // 38
+    {.op = ExprOp::mip, .a = 19, .b = 29},  // 39
+    {.op = ExprOp::mip, .a = 18, .b = 25},  // 40
+    {.op = ExprOp::mip, .a = 19, .b = 25},  // 41
+    {.op = ExprOp::constant, .value = 3},  // 42
+    {.op = ExprOp::mip, .a = 18, .b = 42},  // 43
+    {.op = ExprOp::mip, .a = 19, .b = 42},  // 44
+    {.op = ExprOp::mip, .a = 18, .b = 4},  // 45
     {.op = ExprOp::mip, .a = 19, .b = 4},  // 46
-    {.op = ExprOp::mip, .a = 20, .b = 4},  // 47
-    {.op = ExprOp::constant, .value = 5},  // 48
-    {.op = ExprOp::mip, .a = 19, .b = 48},  // 49
-    {.op = ExprOp::mip, .a = 20, .b = 48},  // 50
-    {.op = ExprOp::constant, .value = 6},  // 51
-    {.op = ExprOp::mip, .a = 19, .b = 51},  // 52
-    {.op = ExprOp::mip, .a = 20, .b = 51},  // 53
-    {.op = ExprOp::constant, .value = 7},  // 54
-    {.op = ExprOp::mip, .a = 19, .b = 54},  // 55
-    {.op = ExprOp::mip, .a = 20, .b = 54},  // 56
-    {.op = ExprOp::constant, .value = 512},  // 57
-    {.op = ExprOp::mip, .a = 27, .b = 30},  // 58
-    {.op = ExprOp::mip, .a = 28, .b = 30},  // 59
-    {.op = ExprOp::mip, .a = 27, .b = 26},  // 60
-    {.op = ExprOp::mip, .a = 28, .b = 26},  // 61
-    {.op = ExprOp::mip, .a = 27, .b = 43},  // 62
-    {.op = ExprOp::mip, .a = 28, .b = 43},  // 63
+    {.op = ExprOp::constant, .value = 5},  // 47
+    {.op = ExprOp::mip, .a = 18, .b = 47},  // 48
+    {.op = ExprOp::mip, .a = 19, .b = 47},  // 49
+    {.op = ExprOp::constant, .value = 6},  // 50
+    {.op = ExprOp::mip, .a = 18, .b = 50},  // 51
+    {.op = ExprOp::mip, .a = 19, .b = 50},  // 52
+    {.op = ExprOp::constant, .value = 7},  // 53
+    {.op = ExprOp::mip, .a = 18, .b = 53},  // 54
+    {.op = ExprOp::mip, .a = 19, .b = 53},  // 55
+    {.op = ExprOp::constant, .value = 512},  // 56
+    {.op = ExprOp::mip, .a = 26, .b = 29},  // 57
+    {.op = ExprOp::mip, .a = 27, .b = 29},  // 58
+    {.op = ExprOp::mip, .a = 26, .b = 25},  // 59
+    {.op = ExprOp::mip, .a = 27, .b = 25},  // 60
+    {.op = ExprOp::mip, .a = 26, .b = 42},  // 61
+    {.op = ExprOp::mip, .a = 27, .b = 42},  // 62
+    {.op = ExprOp::mip, .a = 26, .b = 4},  // 63
     {.op = ExprOp::mip, .a = 27, .b = 4},  // 64
-    {.op = ExprOp::mip, .a = 28, .b = 4},  // 65
-    {.op = ExprOp::mip, .a = 27, .b = 48},  // 66
-    {.op = ExprOp::mip, .a = 28, .b = 48},  // 67
-    {.op = ExprOp::constant, .value = 24},  // 68
-    {.op = ExprOp::mul, .a = 25, .b = 18},  // 69
-    {.op = ExprOp::constant, .value = 12},  // 70
-    {.op = ExprOp::constant, .value = 36},  // 71
-    {.op = ExprOp::constant, .value = 48},  // 72
-    {.op = ExprOp::constant, .value = 60},  // 73
-    {.op = ExprOp::constant, .value = 72},  // 74
-    {.op = ExprOp::constant, .value = 84},  // 75
-    {.op = ExprOp::constant, .value = 128},  // 76
-    {.op = ExprOp::mul, .b = 76},  // 77
-    {.op = ExprOp::constant, .value = 80},  // 78
-    {.op = ExprOp::mul, .b = 78},  // 79
-    {.op = ExprOp::constant, .value = 48},  // 80
-    {.op = ExprOp::mul, .b = 80},  // 81
-    {.op = ExprOp::constant, .value = 4},  // 82
-    {.op = ExprOp::mul, .b = 82},  // 83
-    {.op = ExprOp::constant, .value = 32},  // 84
-    {.op = ExprOp::mul, .b = 84},  // 85
-    {.op = ExprOp::constant, .value = 16},  // 86
-    {.op = ExprOp::mul, .a = 3, .b = 86},  // 87
-    {.op = ExprOp::mul, .a = 4, .b = 82},  // 88
-    {.op = ExprOp::mul, .a = 6, .b = 86},  // 89
-    {.op = ExprOp::mul, .a = 15, .b = 82},  // 90
-    {.op = ExprOp::mul, .a = 17, .b = 82},  // 91
-    {.op = ExprOp::mul, .a = 6, .b = 82},  // 92
-    {.op = ExprOp::mul, .a = 16, .b = 82},  // 93
-    {.op = ExprOp::mul, .a = 22, .b = 82},  // 94
-    {.op = ExprOp::constant, .value = 264},  // 95
-    {.op = ExprOp::mul, .a = 25, .b = 95},  // 96
-    {.op = ExprOp::mul, .a = 25, .b = 82},  // 97
-    {.op = ExprOp::mul, .a = 29, .b = 82},  // 98
-    {.op = ExprOp::mul, .a = 30, .b = 86},  // 99
-    {.op = ExprOp::mul, .a = 68, .b = 82},  // 100
-    {.op = ExprOp::mul, .a = 69, .b = 82},  // 101
-    {.op = ExprOp::constant, .value = 64},  // 102
-    {.op = ExprOp::ceil_div, .a = 3, .b = 102},  // 103
-    {.op = ExprOp::constant, .value = 8},  // 104
-    {.op = ExprOp::ceil_div, .a = 19, .b = 104},  // 105
-    {.op = ExprOp::ceil_div, .a = 20, .b = 104},  // 106
-    {.op = ExprOp::ceil_div, .a = 39, .b = 104},  // 107
-    {.op = ExprOp::ceil_div, .a = 40, .b = 104},  // 108
-    {.op = ExprOp::ceil_div, .a = 41, .b = 104},  // 109
-    {.op = ExprOp::ceil_div, .a = 42, .b = 104},  // 110
-    {.op = ExprOp::ceil_div, .a = 7, .b = 104},  // 111
-    {.op = ExprOp::ceil_div, .a = 8, .b = 104},  // 112
-    {.op = ExprOp::ceil_div, .a = 44, .b = 104},  // 113
-    {.op = ExprOp::ceil_div, .a = 45, .b = 104},  // 114
-    {.op = ExprOp::ceil_div, .a = 46, .b = 104},  // 115
-    {.op = ExprOp::ceil_div, .a = 47, .b = 104},  // 116
-    {.op = ExprOp::ceil_div, .a = 49, .b = 104},  // 117
-    {.op = ExprOp::ceil_div, .a = 50, .b = 104},  // 118
-    {.op = ExprOp::ceil_div, .a = 52, .b = 104},  // 119
-    {.op = ExprOp::ceil_div, .a = 53, .b = 104},  // 120
-    {.op = ExprOp::ceil_div, .a = 55, .b = 104},  // 121
-    {.op = ExprOp::ceil_div, .a = 56, .b = 104},  // 122
-    {.op = ExprOp::ceil_div, .a = 57, .b = 102},  // 123
-    {.op = ExprOp::ceil_div, .a = 6, .b = 102},  // 124
-    {.op = ExprOp::ceil_div, .a = 27, .b = 104},  // 125
-    {.op = ExprOp::ceil_div, .a = 28, .b = 104},  // 126
-    {.op = ExprOp::ceil_div, .a = 23, .b = 104},  // 127
-    {.op = ExprOp::ceil_div, .a = 24, .b = 104},  // 128
-    {.op = ExprOp::ceil_div, .a = 1, .b = 104},  // 129
-    {.op = ExprOp::ceil_div, .a = 2, .b = 104},  // 130
-    {.op = ExprOp::ceil_div, .a = 58, .b = 104},  // 131
-    {.op = ExprOp::ceil_div, .a = 59, .b = 104},  // 132
-    {.op = ExprOp::ceil_div, .a = 60, .b = 104},  // 133
-    {.op = ExprOp::ceil_div, .a = 61, .b = 104},  // 134
-    {.op = ExprOp::ceil_div, .a = 62, .b = 104},  // 135
-    {.op = ExprOp::ceil_div, .a = 63, .b = 104},  // 136
-    {.op = ExprOp::ceil_div, .a = 64, .b = 104},  // 137
-    {.op = ExprOp::ceil_div, .a = 65, .b = 104},  // 138
-    {.op = ExprOp::ceil_div, .a = 27, .b = 86},  // 139
-    {.op = ExprOp::ceil_div, .a = 28, .b = 86},  // 140
-    {.op = ExprOp::ceil_div, .a = 66, .b = 104},  // 141
-    {.op = ExprOp::ceil_div, .a = 67, .b = 104},  // 142
-    {.op = ExprOp::constant, .value = 3},  // 143
-    {.op = ExprOp::constant, .value = 49152},  // 144
-    {.op = ExprOp::constant, .value = 32768},  // 145
-    {.op = ExprOp::constant, .value = 81920},  // 146
-    {.op = ExprOp::constant, .value = 114688},  // 147
-    {.op = ExprOp::constant, .value = 16384},  // 148
-    {.op = ExprOp::constant, .value = 65536},  // 149
-    {.op = ExprOp::constant, .value = 98304},  // 150
-    {.op = ExprOp::constant, .value = 12},  // 151
-    {.op = ExprOp::constant, .value = 24},  // 152
-    {.op = ExprOp::constant, .value = 36},  // 153
-    {.op = ExprOp::constant, .value = 60},  // 154
-    {.op = ExprOp::constant, .value = 72},  // 155
-    {.op = ExprOp::constant, .value = 84},  // 156
+    {.op = ExprOp::mip, .a = 26, .b = 47},  // 65
+    {.op = ExprOp::mip, .a = 27, .b = 47},  // 66
+    {.op = ExprOp::constant, .value = 24},  // 67
+    {.op = ExprOp::mul, .a = 24, .b = 17},  // 68
+    {.op = ExprOp::constant, .value = 12},  // 69
+    {.op = ExprOp::constant, .value = 36},  // 70
+    {.op = ExprOp::constant, .value = 48},  // 71
+    {.op = ExprOp::constant, .value = 60},  // 72
+    {.op = ExprOp::constant, .value = 72},  // 73
+    {.op = ExprOp::constant, .value = 84},  // 74
+    {.op = ExprOp::constant, .value = 128},  // 75
+    {.op = ExprOp::mul, .b = 75},  // 76
+    {.op = ExprOp::constant, .value = 80},  // 77
+    {.op = ExprOp::mul, .b = 77},  // 78
+    {.op = ExprOp::constant, .value = 48},  // 79
+    {.op = ExprOp::mul, .b = 79},  // 80
+    {.op = ExprOp::constant, .value = 4},  // 81
+    {.op = ExprOp::mul, .b = 81},  // 82
+    {.op = ExprOp::constant, .value = 32},  // 83
+    {.op = ExprOp::mul, .b = 83},  // 84
+    {.op = ExprOp::constant, .value = 16},  // 85
+    {.op = ExprOp::mul, .a = 3, .b = 85},  // 86
+    {.op = ExprOp::mul, .a = 4, .b = 81},  // 87
+    {.op = ExprOp::mul, .a = 6, .b = 85},  // 88
+    {.op = ExprOp::mul, .a = 14, .b = 81},  // 89
+    {.op = ExprOp::mul, .a = 16, .b = 81},  // 90
+    {.op = ExprOp::mul, .a = 6, .b = 81},  // 91
+    {.op = ExprOp::mul, .a = 15, .b = 81},  // 92
+    {.op = ExprOp::mul, .a = 21, .b = 81},  // 93
+    {.op = ExprOp::constant, .value = 264},  // 94
+    {.op = ExprOp::mul, .a = 24, .b = 94},  // 95
+    {.op = ExprOp::mul, .a = 24, .b = 81},  // 96
+    {.op = ExprOp::mul, .a = 28, .b = 81},  // 97
+    {.op = ExprOp::mul, .a = 29, .b = 85},  // 98
+    {.op = ExprOp::mul, .a = 67, .b = 81},  // 99
+    {.op = ExprOp::mul, .a = 68, .b = 81},  // 100
+    {.op = ExprOp::constant, .value = 64},  // 101
+    {.op = ExprOp::ceil_div, .a = 3, .b = 101},  // 102
+    {.op = ExprOp::constant, .value = 8},  // 103
+    {.op = ExprOp::ceil_div, .a = 18, .b = 103},  // 104
+    {.op = ExprOp::ceil_div, .a = 19, .b = 103},  // 105
+    {.op = ExprOp::ceil_div, .a = 38, .b = 103},  // 106
+    {.op = ExprOp::ceil_div, .a = 39, .b = 103},  // 107
+    {.op = ExprOp::ceil_div, .a = 40, .b = 103},  // 108
+    {.op = ExprOp::ceil_div, .a = 41, .b = 103},  // 109
+    {.op = ExprOp::ceil_div, .a = 43, .b = 103},  // 110
+    {.op = ExprOp::ceil_div, .a = 44, .b = 103},  // 111
+    {.op = ExprOp::ceil_div, .a = 45, .b = 103},  // 112
+    {.op = ExprOp::ceil_div, .a = 46, .b = 103},  // 113
+    {.op = ExprOp::ceil_div, .a = 48, .b = 103},  // 114
+    {.op = ExprOp::ceil_div, .a = 49, .b = 103},  // 115
+    {.op = ExprOp::ceil_div, .a = 51, .b = 103},  // 116
+    {.op = ExprOp::ceil_div, .a = 52, .b = 103},  // 117
+    {.op = ExprOp::ceil_div, .a = 54, .b = 103},  // 118
+    {.op = ExprOp::ceil_div, .a = 55, .b = 103},  // 119
+    {.op = ExprOp::ceil_div, .a = 56, .b = 101},  // 120
+    {.op = ExprOp::ceil_div, .a = 7, .b = 103},  // 121
+    {.op = ExprOp::ceil_div, .a = 8, .b = 103},  // 122
+    {.op = ExprOp::ceil_div, .a = 6, .b = 101},  // 123
+    {.op = ExprOp::ceil_div, .a = 26, .b = 103},  // 124
+    {.op = ExprOp::ceil_div, .a = 27, .b = 103},  // 125
+    {.op = ExprOp::ceil_div, .a = 22, .b = 103},  // 126
+    {.op = ExprOp::ceil_div, .a = 23, .b = 103},  // 127
+    {.op = ExprOp::ceil_div, .a = 1, .b = 103},  // 128
+    {.op = ExprOp::ceil_div, .a = 2, .b = 103},  // 129
+    {.op = ExprOp::ceil_div, .a = 57, .b = 103},  // 130
+    {.op = ExprOp::ceil_div, .a = 58, .b = 103},  // 131
+    {.op = ExprOp::ceil_div, .a = 59, .b = 103},  // 132
+    {.op = ExprOp::ceil_div, .a = 60, .b = 103},  // 133
+    {.op = ExprOp::ceil_div, .a = 61, .b = 103},  // 134
+    {.op = ExprOp::ceil_div, .a = 62, .b = 103},  // 135
+    {.op = ExprOp::ceil_div, .a = 63, .b = 103},  // 136
+    {.op = ExprOp::ceil_div, .a = 64, .b = 103},  // 137
+    {.op = ExprOp::ceil_div, .a = 65, .b = 103},  // 138
+    {.op = ExprOp::ceil_div, .a = 66, .b = 103},  // 139
+    {.op = ExprOp::ceil_div, .a = 26, .b = 85},  // 140
+    {.op = ExprOp::ceil_div, .a = 27, .b = 85},  // 141
+    {.op = ExprOp::constant, .value = 3},  // 142
+    {.op = ExprOp::constant, .value = 16384},  // 143
+    {.op = ExprOp::constant, .value = 32768},  // 144
+    {.op = ExprOp::constant, .value = 49152},  // 145
+    {.op = ExprOp::constant, .value = 65536},  // 146
+    {.op = ExprOp::constant, .value = 81920},  // 147
+    {.op = ExprOp::constant, .value = 98304},  // 148
+    {.op = ExprOp::constant, .value = 114688},  // 149
+    {.op = ExprOp::constant, .value = 12},  // 150
+    {.op = ExprOp::constant, .value = 24},  // 151
+    {.op = ExprOp::constant, .value = 36},  // 152
+    {.op = ExprOp::constant, .value = 60},  // 153
+    {.op = ExprOp::constant, .value = 72},  // 154
+    {.op = ExprOp::constant, .value = 84},  // 155
 };
 
 constexpr Extent kExtents[] = {
@@ -219,21 +218,21 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 77, .stride = 128,
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 76, .stride = 128,
      .layout = 726144499, .import_slot = 0, .estimated_bytes = 256, .line = 104, .file = "passes/scene/scene.rg"},
-    {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 79, .stride = 80,
+    {.name = "scene.fog_volumes", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 78, .stride = 80,
      .layout = 2864363377, .import_slot = 1, .estimated_bytes = 256, .line = 105, .file = "passes/scene/scene.rg"},
-    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 77, .stride = 128,
+    {.name = "scene.instances", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 76, .stride = 128,
      .layout = 3875358314, .import_slot = 2, .estimated_bytes = 256, .line = 106, .file = "passes/scene/scene.rg"},
-    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 81, .stride = 48,
+    {.name = "scene.materials", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 80, .stride = 48,
      .layout = 3506255352, .import_slot = 3, .estimated_bytes = 256, .line = 107, .file = "passes/scene/scene.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 81, .stride = 48,
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 80, .stride = 48,
      .layout = 2983543026, .import_slot = 4, .estimated_bytes = 256, .line = 108, .file = "passes/scene/scene.rg"},
-    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 83, .stride = 4,
+    {.name = "scene.indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 82, .stride = 4,
      .layout = 1948121759, .import_slot = 5, .estimated_bytes = 256, .line = 109, .file = "passes/scene/scene.rg"},
-    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 85, .stride = 32,
+    {.name = "scene.props", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 84, .stride = 32,
      .layout = 1832413415, .import_slot = 6, .estimated_bytes = 256, .line = 110, .file = "passes/scene/scene.rg"},
-    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 83, .stride = 4,
+    {.name = "scene.prop_indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 64, .bytes = 82, .stride = 4,
      .layout = 1948121759, .import_slot = 7, .estimated_bytes = 256, .line = 111, .file = "passes/scene/scene.rg"},
     {.name = "scene.albedo_maps", .lifetime = Lifetime::imported, .format = Format{43}, .width = 0, .height = 0, .mips = 9, .layers = 32,
      .aspects = aspect_color, .usage = 4, .import_slot = 8, .estimated_bytes = 11206656, .line = 112, .file = "passes/scene/scene.rg"},
@@ -241,51 +240,51 @@ constexpr Resource kResources[] = {
      .aspects = aspect_color, .usage = 4, .import_slot = 9, .estimated_bytes = 11206656, .line = 113, .file = "passes/scene/scene.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 20, .file = "passes.rg"},
-    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 18153472, .line = 50, .file = "passes.rg"},
-    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 87, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 10420224, .line = 51, .file = "passes.rg"},
-    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 88, .stride = 4, .layout = 1948121759,
+    {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 86, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 9856256, .line = 50, .file = "passes.rg"},
+    {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 86, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
+     .estimated_alignment = 256, .estimated_offset = 9872640, .line = 51, .file = "passes.rg"},
+    {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 87, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 256, .line = 52, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
      .estimated_alignment = 65536, .line = 83, .file = "passes.rg"},
-    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 89, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .estimated_offset = 12992512, .line = 102, .file = "passes.rg"},
+    {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 88, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
+     .estimated_alignment = 256, .estimated_offset = 9725184, .line = 102, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
      .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 103, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 127, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
      .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 17825792, .line = 128, .file = "passes.rg"},
-    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 90, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 12845056, .line = 117, .file = "passes/fog/fog.rg"},
-    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 91, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 2359296, .estimated_alignment = 256, .estimated_offset = 10485760, .line = 118, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 89, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 9216, .estimated_alignment = 256, .estimated_offset = 9715712, .line = 117, .file = "passes/fog/fog.rg"},
+    {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 90, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 9502720, .line = 118, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
      .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 122,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 133, .file = "passes.rg"},
-    {.name = "depth_range", .format = Format{103}, .width = 19, .height = 20, .mips = 8, .aspects = aspect_color, .usage = 12,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 151, .file = "passes.rg"},
-    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 10485760, .line = 169, .file = "passes.rg"},
-    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 10518528, .line = 170, .file = "passes.rg"},
-    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 65536, .estimated_offset = 11337728, .line = 133, .file = "passes.rg"},
+    {.name = "depth_range", .format = Format{103}, .width = 18, .height = 19, .mips = 8, .aspects = aspect_color, .usage = 12,
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 151, .file = "passes.rg"},
+    {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 9650176, .line = 169, .file = "passes.rg"},
+    {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
+     .estimated_alignment = 256, .estimated_offset = 9682944, .line = 170, .file = "passes.rg"},
+    {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
      .estimated_alignment = 256, .estimated_offset = 18614272, .line = 171, .file = "passes.rg"},
-    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 10551296, .line = 172, .file = "passes.rg"},
-    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
+    {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 9724928, .line = 172, .file = "passes.rg"},
+    {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18153472, .line = 173, .file = "passes.rg"},
-    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 94, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
+    {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
      .estimated_alignment = 256, .estimated_offset = 18383872, .line = 174, .file = "passes.rg"},
-    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 96, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
+    {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 95, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
      .estimated_alignment = 256, .estimated_offset = 18874368, .line = 175, .file = "passes.rg"},
-    {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 97, .stride = 4,
+    {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 96, .stride = 4,
      .layout = 1948121759, .estimated_bytes = 3840, .line = 176, .file = "passes.rg"},
-    {.name = "tile_kernels", .format = Format{98}, .width = 23, .height = 24, .aspects = aspect_color, .usage = 8, .estimated_bytes = 65536,
+    {.name = "tile_kernels", .format = Format{98}, .width = 22, .height = 23, .aspects = aspect_color, .usage = 8, .estimated_bytes = 65536,
      .estimated_alignment = 65536, .estimated_offset = 18808832, .line = 177, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 12320768, .line = 223, .file = "passes.rg"},
@@ -297,23 +296,23 @@ constexpr Resource kResources[] = {
      .estimated_alignment = 65536, .estimated_offset = 15269888, .line = 226, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 16252928, .line = 227, .file = "passes.rg"},
-    {.name = "occlusion", .format = Format{76}, .width = 27, .height = 28, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
+    {.name = "occlusion", .format = Format{76}, .width = 26, .height = 27, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
      .estimated_alignment = 65536, .estimated_offset = 18677760, .line = 259, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 260, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 260, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
      .estimated_alignment = 65536, .estimated_offset = 655360, .line = 312, .file = "passes.rg"},
-    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 98, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
+    {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 97, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
      .estimated_alignment = 256, .estimated_offset = 1638400, .line = 333, .file = "passes.rg"},
-    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 99, .stride = 16, .layout = 2946367551,
+    {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 98, .stride = 16, .layout = 2946367551,
      .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 334, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
      .init = InitKind::clear, .estimated_bytes = 1900544, .line = 335, .file = "passes.rg"},
-    {.name = "bloom", .format = Format{97}, .width = 27, .height = 28, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
+    {.name = "bloom", .format = Format{97}, .width = 26, .height = 27, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
      .estimated_alignment = 65536, .line = 336, .file = "passes.rg"},
-    {.name = "deferred_light.arguments", .kind = ResourceKind::buffer, .usage = 290, .bytes = 100, .stride = 4, .layout = 1948121759,
+    {.name = "deferred_light.arguments", .kind = ResourceKind::buffer, .usage = 290, .bytes = 99, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 256, .estimated_alignment = 256, .estimated_offset = 18676480, .line = 270, .file = "passes.rg"},
-    {.name = "deferred_light.tiles", .kind = ResourceKind::buffer, .usage = 32, .bytes = 101, .stride = 4, .layout = 1948121759,
+    {.name = "deferred_light.tiles", .kind = ResourceKind::buffer, .usage = 32, .bytes = 100, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 29440, .estimated_alignment = 256, .estimated_offset = 18647040, .line = 270, .file = "passes.rg"},
 };
 
@@ -326,9 +325,56 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::world_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // mesh_cull
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
+    // depth_world
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
+    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
+    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
+    // depth_props
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[6]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[6]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
     // lamp_cull
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[7]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[7]
+    {.ref = {.resource = resource::zbin_min}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
+    {.ref = {.resource = resource::zbin_max}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
+    {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
@@ -351,7 +397,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 31, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 30, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[0]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
@@ -360,7 +406,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 31, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
@@ -369,20 +415,8 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
-    // depth_world
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::world_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // depth_world
-    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // depth_props
-    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // depth_props
-    // depth_props
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
@@ -390,7 +424,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 34, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
@@ -399,12 +433,8 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 34, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[4]
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
@@ -412,7 +442,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
@@ -421,12 +451,8 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
@@ -434,7 +460,7 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 38, .size = 32}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
     // froxel_fog.clusters.cull
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
@@ -444,53 +470,6 @@ constexpr Access kAccesses[] = {
      .writes = true},  // froxel_fog.clusters.cull
     {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
      .writes = true},  // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
-    // froxel_fog.merged
-    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
-    // froxel_fog.merged
-    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
-    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
-    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
-    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
-    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[7]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[7]
-    {.ref = {.resource = resource::zbin_min}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
-    {.ref = {.resource = resource::zbin_max}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
-    {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
     {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
      .writes = true},  // zbin_build
@@ -545,6 +524,26 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_props
     // deferred_light.reset
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // froxel_fog.merged
+    {.ref = {.resource = resource::froxel_fog_memory}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
     {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // zbin_pack
@@ -600,7 +599,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[0]
     // deferred_light[0]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 31, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 30, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[0]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[1]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -632,7 +631,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[1]
     // deferred_light[1]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 70, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 69, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[1]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[2]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -664,7 +663,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[2]
     // deferred_light[2]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 68, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 67, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[2]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[3]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -696,7 +695,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[3]
     // deferred_light[3]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 71, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 70, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[3]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[4]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -728,7 +727,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[4]
     // deferred_light[4]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 72, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 71, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[4]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[5]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -760,7 +759,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[5]
     // deferred_light[5]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 73, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 72, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[5]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[6]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -792,7 +791,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[6]
     // deferred_light[6]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 74, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 73, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[6]
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[7]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -824,7 +823,7 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light[7]
     // deferred_light[7]
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 75, .size = 70}, .stages = stage::draw_indirect,
+    {.ref = {.resource = resource::deferred_light_arguments}, .bytes = {.offset = 74, .size = 69}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // deferred_light[7]
     // transparent
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader | stage::fragment_shader, .accesses = access::shader_storage_read},
@@ -878,6 +877,35 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
+    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
+     .layout = Layout::shader_read_only},  // luminance
+    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // debug_view
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -907,38 +935,9 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // debug_view
-    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
-    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
-     .layout = Layout::shader_read_only},  // luminance
-    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
     {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // expose
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[5]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
@@ -958,145 +957,145 @@ constexpr Pass kPasses[] = {
     {.name = "mesh_cull_world.clear", .module = "frame", .kind = PassKind::transfer, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 64, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
-     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 30, .z = 30}, .line = 56, .file = "passes.rg"},
-    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 5, .access_count = 2, .pipeline = 1,
-     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 103, .y = 18, .z = 30},
+     .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 29, .z = 29}, .line = 56, .file = "passes.rg"},
+    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
+     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 135, .file = "passes.rg"},
+    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 10, .access_count = 3, .rendering = 0, .pipeline = 2,
+     .first_binding = 9, .binding_count = 1, .first_params = 2, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 143, .file = "passes.rg"},
+    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 13, .access_count = 2, .pipeline = 3,
+     .first_binding = 10, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 29}, .line = 153, .file = "passes.rg"},
+    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
+     .first_binding = 12, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 29}, .mip_limit_count = 1, .line = 160,
+     .file = "passes.rg"},
+    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 17, .access_count = 2, .pipeline = 5,
+     .first_binding = 14, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 108, .y = 109, .z = 29}, .first_mip_limit = 1,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 19, .access_count = 2, .pipeline = 6,
+     .first_binding = 16, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 110, .y = 111, .z = 29}, .first_mip_limit = 3,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 21, .access_count = 2, .pipeline = 7,
+     .first_binding = 18, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 112, .y = 113, .z = 29}, .first_mip_limit = 5,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 23, .access_count = 2, .pipeline = 8,
+     .first_binding = 20, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 29}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 25, .access_count = 2, .pipeline = 9,
+     .first_binding = 22, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 116, .y = 117, .z = 29}, .first_mip_limit = 9,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 27, .access_count = 2, .pipeline = 10,
+     .first_binding = 24, .binding_count = 4, .first_params = 3, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 17, .z = 29},
      .line = 106, .file = "passes.rg"},
-    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 7, .access_count = 5, .rendering = 0, .pipeline = 2,
-     .first_binding = 9, .binding_count = 4, .first_params = 3, .params_count = 1,
+    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 29, .access_count = 2, .pipeline = 11,
+     .first_binding = 28, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 29}, .first_mip_limit = 11,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 31, .access_count = 2,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 179, .file = "passes.rg"},
+    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 33, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 194, .file = "passes.rg"},
+    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 34, .access_count = 5, .rendering = 1, .pipeline = 12,
+     .first_binding = 30, .binding_count = 4, .first_params = 5, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 85, .file = "passes.rg"},
-    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 3, .rendering = 0, .pipeline = 3,
-     .first_binding = 13, .binding_count = 1, .first_params = 4, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 39, .access_count = 3, .rendering = 1, .pipeline = 13,
+     .first_binding = 34, .binding_count = 1, .first_params = 6, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 93, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 15, .access_count = 5, .rendering = 1,
-     .pipeline = 4, .first_binding = 14, .binding_count = 4, .first_params = 5, .params_count = 1,
+    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 42, .access_count = 5, .rendering = 2,
+     .pipeline = 14, .first_binding = 35, .binding_count = 4, .first_params = 7, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 30, .max_draws = 1024},
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 47, .access_count = 5, .rendering = 3,
+     .pipeline = 15, .first_binding = 39, .binding_count = 4, .first_params = 8, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 2,
-     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
+    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 52, .access_count = 5, .rendering = 4,
+     .pipeline = 16, .first_binding = 43, .binding_count = 4, .first_params = 9, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 25, .access_count = 5, .rendering = 3,
-     .pipeline = 6, .first_binding = 22, .binding_count = 4, .first_params = 7, .params_count = 1,
+    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 57, .access_count = 5, .rendering = 5,
+     .pipeline = 17, .first_binding = 47, .binding_count = 4, .first_params = 10, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 30, .access_count = 5, .rendering = 4, .pipeline = 7,
-     .first_binding = 26, .binding_count = 4, .first_params = 8, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 135, .file = "passes.rg"},
-    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 35, .access_count = 3, .rendering = 4, .pipeline = 8,
-     .first_binding = 30, .binding_count = 1, .first_params = 9, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 143, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 38, .access_count = 5, .rendering = 5,
-     .pipeline = 9, .first_binding = 31, .binding_count = 4, .first_params = 10, .params_count = 1,
+    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 6,
+     .pipeline = 18, .first_binding = 51, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 6,
-     .pipeline = 10, .first_binding = 35, .binding_count = 4, .first_params = 11, .params_count = 1,
+    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 67, .access_count = 5, .rendering = 7,
+     .pipeline = 19, .first_binding = 55, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 11,
-     .first_binding = 39, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 105, .y = 106, .z = 30}, .line = 153, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 50, .access_count = 5, .rendering = 7,
-     .pipeline = 12, .first_binding = 41, .binding_count = 4, .first_params = 12, .params_count = 1,
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 72, .access_count = 5, .rendering = 8,
+     .pipeline = 20, .first_binding = 59, .binding_count = 4, .first_params = 13, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 55, .access_count = 5, .rendering = 8,
-     .pipeline = 13, .first_binding = 45, .binding_count = 4, .first_params = 13, .params_count = 1,
+    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 77, .access_count = 5, .rendering = 9,
+     .pipeline = 21, .first_binding = 63, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 2, .pipeline = 14,
-     .first_binding = 49, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 107, .y = 108, .z = 30}, .mip_limit_count = 1, .line = 160,
-     .file = "passes.rg"},
-    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 9,
-     .pipeline = 15, .first_binding = 51, .binding_count = 4, .first_params = 14, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 38, .max_draws = 1024},
-     .line = 115, .file = "passes.rg"},
-    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 67, .access_count = 4, .pipeline = 16,
-     .first_binding = 55, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 82, .access_count = 4, .pipeline = 22,
+     .first_binding = 67, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 39, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 71, .access_count = 2, .pipeline = 17,
-     .first_binding = 61, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 109, .y = 110, .z = 30}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 73, .access_count = 11, .pipeline = 18,
-     .first_binding = 63, .binding_count = 13, .first_params = 17, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 111, .y = 112, .z = 30}, .line = 125, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 84, .access_count = 2, .pipeline = 19,
-     .first_binding = 76, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 113, .y = 114, .z = 30}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 86, .access_count = 2, .pipeline = 20,
-     .first_binding = 78, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 115, .y = 116, .z = 30}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 88, .access_count = 2, .pipeline = 21,
-     .first_binding = 80, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 117, .y = 118, .z = 30}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 90, .access_count = 2, .pipeline = 22,
-     .first_binding = 82, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 119, .y = 120, .z = 30}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 92, .access_count = 2, .pipeline = 23,
-     .first_binding = 84, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 30}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 94, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 179, .file = "passes.rg"},
-    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 96, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 194, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 97, .access_count = 3, .pipeline = 24, .first_binding = 86,
-     .binding_count = 4, .first_params = 19, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 57, .y = 30, .z = 30}, .line = 179,
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 86, .access_count = 3, .pipeline = 23, .first_binding = 73,
+     .binding_count = 4, .first_params = 17, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 56, .y = 29, .z = 29}, .line = 179,
      .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 100, .access_count = 3, .pipeline = 25,
-     .first_binding = 90, .binding_count = 4, .first_params = 20, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 30, .z = 30},
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 3, .pipeline = 24,
+     .first_binding = 77, .binding_count = 4, .first_params = 18, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 29, .z = 29},
      .line = 194, .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 103, .access_count = 4, .pipeline = 26, .first_binding = 94,
-     .binding_count = 5, .first_params = 21, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 30}, .line = 212,
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 92, .access_count = 4, .pipeline = 25, .first_binding = 81,
+     .binding_count = 5, .first_params = 19, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 22, .y = 23, .z = 29}, .line = 212,
      .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 107, .access_count = 13, .rendering = 10, .pipeline = 27,
-     .first_binding = 99, .binding_count = 7, .first_params = 22, .params_count = 1,
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 96, .access_count = 13, .rendering = 10, .pipeline = 26,
+     .first_binding = 86, .binding_count = 7, .first_params = 20, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 229, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 120, .access_count = 8, .rendering = 10, .pipeline = 28,
-     .first_binding = 106, .binding_count = 1, .first_params = 23, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 109, .access_count = 8, .rendering = 10, .pipeline = 27,
+     .first_binding = 93, .binding_count = 1, .first_params = 21, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
      .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 245, .file = "passes.rg"},
-    {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 128, .access_count = 1,
+    {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 117, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 270, .file = "passes.rg"},
+    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 118, .access_count = 11, .pipeline = 28,
+     .first_binding = 94, .binding_count = 13, .first_params = 22, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 29}, .line = 125, .file = "passes/fog/fog.rg"},
     {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 129, .access_count = 3, .pipeline = 29, .first_binding = 107,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 30, .z = 30}, .line = 187, .file = "passes.rg"},
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 29, .z = 29}, .line = 187, .file = "passes.rg"},
     {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 132, .access_count = 5, .pipeline = 30, .first_binding = 110,
-     .binding_count = 6, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 20, .z = 30}, .line = 202,
+     .binding_count = 6, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 18, .y = 19, .z = 29}, .line = 202,
      .file = "passes.rg"},
     {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 137, .access_count = 3, .pipeline = 31,
      .first_binding = 116, .binding_count = 4, .first_params = 25, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 262, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .line = 262, .file = "passes.rg"},
     {.name = "deferred_light.classify", .module = "frame", .kind = PassKind::compute, .first_access = 140, .access_count = 4, .pipeline = 32,
-     .first_binding = 120, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 127, .y = 128, .z = 30}, .line = 270, .file = "passes.rg"},
+     .first_binding = 120, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 126, .y = 127, .z = 29}, .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[0]", .module = "frame", .kind = PassKind::compute, .first_access = 144, .access_count = 18, .pipeline = 33,
      .first_binding = 124, .binding_count = 19, .first_params = 26, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 31},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 30},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[1]", .module = "frame", .kind = PassKind::compute, .first_access = 162, .access_count = 18, .pipeline = 34,
      .first_binding = 143, .binding_count = 19, .first_params = 28, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 70},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 69},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[2]", .module = "frame", .kind = PassKind::compute, .first_access = 180, .access_count = 18, .pipeline = 35,
      .first_binding = 162, .binding_count = 19, .first_params = 30, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 68},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 67},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[3]", .module = "frame", .kind = PassKind::compute, .first_access = 198, .access_count = 18, .pipeline = 36,
      .first_binding = 181, .binding_count = 19, .first_params = 32, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 71},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 70},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[4]", .module = "frame", .kind = PassKind::compute, .first_access = 216, .access_count = 18, .pipeline = 37,
      .first_binding = 200, .binding_count = 19, .first_params = 34, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 72},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 71},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[5]", .module = "frame", .kind = PassKind::compute, .first_access = 234, .access_count = 18, .pipeline = 38,
      .first_binding = 219, .binding_count = 19, .first_params = 36, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 73},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 72},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[6]", .module = "frame", .kind = PassKind::compute, .first_access = 252, .access_count = 18, .pipeline = 39,
      .first_binding = 238, .binding_count = 19, .first_params = 38, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 74},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 73},
      .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[7]", .module = "frame", .kind = PassKind::compute, .first_access = 270, .access_count = 18, .pipeline = 40,
      .first_binding = 257, .binding_count = 19, .first_params = 40, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 75},
+     .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 74},
      .line = 270, .file = "passes.rg"},
     {.name = "transparent", .module = "frame", .kind = PassKind::raster, .first_access = 288, .access_count = 14, .rendering = 11, .pipeline = 41,
      .first_binding = 276, .binding_count = 14, .first_params = 42, .params_count = 2, .push_bytes = 4, .push_stages = 17, .push_layout = 2478537437,
@@ -1106,52 +1105,52 @@ constexpr Pass kPasses[] = {
      .file = "passes.rg"},
     {.name = "resolve_temporal", .module = "frame", .kind = PassKind::compute, .first_access = 304, .access_count = 5, .pipeline = 42,
      .first_binding = 290, .binding_count = 6, .first_params = 44, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 353, .file = "passes.rg"},
+     .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 29}, .line = 353, .file = "passes.rg"},
     {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 309, .access_count = 2, .pipeline = 43,
-     .first_binding = 296, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .line = 363, .file = "passes.rg"},
+     .first_binding = 296, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .line = 363, .file = "passes.rg"},
     {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 311, .access_count = 2, .pipeline = 44,
-     .first_binding = 298, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 13,
+     .first_binding = 298, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 29}, .first_mip_limit = 13,
      .mip_limit_count = 1, .line = 370, .file = "passes.rg"},
     {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 313, .access_count = 2, .pipeline = 45,
-     .first_binding = 300, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 14,
+     .first_binding = 300, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 132, .y = 133, .z = 29}, .first_mip_limit = 14,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
     {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 315, .access_count = 2, .pipeline = 46,
-     .first_binding = 302, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 16,
+     .first_binding = 302, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 16,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 317, .access_count = 17, .pipeline = 47,
-     .first_binding = 304, .binding_count = 19, .first_params = 45, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 129, .y = 130, .z = 30}, .line = 313, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 334, .access_count = 1,
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 317, .access_count = 2, .pipeline = 47,
+     .first_binding = 304, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 18,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 319, .access_count = 2, .pipeline = 48,
+     .first_binding = 306, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 138, .y = 139, .z = 29}, .first_mip_limit = 20,
+     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 321, .access_count = 2, .pipeline = 49,
+     .first_binding = 308, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 22,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 323, .access_count = 2, .pipeline = 50,
+     .first_binding = 310, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 325, .access_count = 1,
      .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 338, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 335, .access_count = 2, .pipeline = 48,
-     .first_binding = 323, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 18,
-     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 337, .access_count = 2, .pipeline = 49, .first_binding = 325,
-     .binding_count = 2, .choice_count = 2, .feature_count = 1, .work = {.kind = WorkKind::dispatch, .x = 139, .y = 140, .z = 30}, .line = 338,
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 326, .access_count = 2, .pipeline = 51,
+     .first_binding = 312, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 132, .y = 133, .z = 29}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 328, .access_count = 2, .pipeline = 52, .first_binding = 314,
+     .binding_count = 2, .choice_count = 2, .feature_count = 1, .work = {.kind = WorkKind::dispatch, .x = 140, .y = 141, .z = 29}, .line = 338,
      .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 339, .access_count = 2, .pipeline = 51,
-     .first_binding = 327, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 141, .y = 142, .z = 30}, .first_mip_limit = 20,
-     .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 341, .access_count = 3, .pipeline = 52, .first_binding = 329,
-     .binding_count = 4, .first_params = 47, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 30, .z = 30}, .line = 345,
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 330, .access_count = 2, .pipeline = 54,
+     .first_binding = 316, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 29}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 332, .access_count = 17, .pipeline = 55,
+     .first_binding = 318, .binding_count = 19, .first_params = 45, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 29}, .line = 313, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 349, .access_count = 3, .pipeline = 56, .first_binding = 337,
+     .binding_count = 4, .first_params = 47, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 29, .y = 29, .z = 29}, .line = 345,
      .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 344, .access_count = 2, .pipeline = 53,
-     .first_binding = 333, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 137, .y = 138, .z = 30}, .first_mip_limit = 22,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 346, .access_count = 2, .pipeline = 54,
-     .first_binding = 335, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 135, .y = 136, .z = 30}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 348, .access_count = 2, .pipeline = 55,
-     .first_binding = 337, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 133, .y = 134, .z = 30}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 350, .access_count = 2, .pipeline = 56,
-     .first_binding = 339, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 131, .y = 132, .z = 30}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
     {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 352, .access_count = 2, .pipeline = 57,
-     .first_binding = 341, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 125, .y = 126, .z = 30}, .first_mip_limit = 30,
+     .first_binding = 341, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .first_mip_limit = 30,
      .mip_limit_count = 1, .line = 378, .file = "passes.rg"},
     {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 354, .access_count = 5, .rendering = 12, .pipeline = 58,
-     .first_binding = 343, .binding_count = 5, .first_params = 48, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 143}, .line = 385,
+     .first_binding = 343, .binding_count = 5, .first_params = 48, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 142}, .line = 385,
      .file = "passes.rg"},
 };
 
@@ -1190,22 +1189,10 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::fragment_shader | stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 3},
-     .src_stages = stage::fragment_shader | stage::compute_shader, .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 2}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[2] -> lamp_shadow_world[3]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader,
@@ -1214,20 +1201,53 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> depth_range_first
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 2}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_first -> depth_range_down[1]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[6] -> lamp_shadow_world[7]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[5] -> depth_range_down[6]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
+    {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
+    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
+    {.image = {.resource = resource::material}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
+    {.image = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
+    {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
@@ -1248,39 +1268,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.merged
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[5] -> depth_range_down[6]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
-    {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::material}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::emissive}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
     {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> deferred_light.classify
@@ -1345,12 +1332,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[2] -> bloom_down[3]
-    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read,
-     .old_layout = Layout::general, .new_layout = Layout::general},  // deferred_light.classify -> debug_view
-    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[3] -> bloom_down[4]
@@ -1381,6 +1362,12 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_up[3] -> bloom_up[4]
+    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read,
+     .old_layout = Layout::general, .new_layout = Layout::general},  // deferred_light.classify -> debug_view
+    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write,
      .old_layout = Layout::shader_read_only, .new_layout = Layout::general},  // bloom_up[4] -> bloom_up[5]
@@ -1402,33 +1389,21 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
+    // frame start -> mesh_cull
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
     // mesh_cull_world.clear -> mesh_cull
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
-    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
-     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
-    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
-    // lamp_cull -> lamp_shadow_world[0]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 144}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[2] -> lamp_shadow_world[3]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 144, .size = 145}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 146, .size = 145}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[6] -> lamp_shadow_world[7]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 147}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
-    {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     // frame start -> light_occlusion.clear
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // lamp_cull -> lamp_shadow_world[0]
     // zbin_build.clear -> zbin_build
     {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
@@ -1438,6 +1413,10 @@ constexpr BufferBarrier kBufferBarriers[] = {
     // light_occlusion.clear -> light_occlusion
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
+    {.buffer = {.resource = resource::froxel_fog_cluster_volumes}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
+    {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
     {.buffer = {.resource = resource::zbin_max}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1475,33 +1454,33 @@ constexpr BufferBarrier kBufferBarriers[] = {
 constexpr BarrierGroup kGroups[] = {
     {},  // before mesh_cull_world.clear  passes.rg:64
     {.buffer_count = 2},  // before mesh_cull  passes.rg:56
-    {.image_count = 3, .first_buffer = 2, .buffer_count = 3},  // before sun_shadow_world  passes.rg:85
-    {.first_image = 3, .image_count = 3, .first_buffer = 5, .buffer_count = 1},  // before lamp_shadow_world[3]  passes.rg:115
-    {.first_image = 6, .image_count = 2, .first_buffer = 6, .buffer_count = 1},  // before lamp_shadow_world[5]  passes.rg:115
-    {.first_image = 8, .image_count = 2, .first_buffer = 7, .buffer_count = 1},  // before lamp_shadow_world[7]  passes.rg:115
-    {.first_image = 10, .image_count = 7, .first_buffer = 8, .buffer_count = 2},  // before froxel_fog.merged  passes/fog/fog.rg:125
-    {.first_image = 17, .image_count = 1},  // before depth_range_down[4]  passes.rg:160
-    {.first_image = 18, .image_count = 1},  // before depth_range_down[5]  passes.rg:160
-    {.first_image = 19, .image_count = 1},  // before depth_range_down[6]  passes.rg:160
-    {.first_image = 20, .image_count = 1, .first_buffer = 10, .buffer_count = 1},  // before depth_range_down[7]  passes.rg:160
-    {.first_image = 21, .image_count = 6, .first_buffer = 11, .buffer_count = 3},  // before zbin_build  passes.rg:179
-    {.first_image = 27, .image_count = 3, .first_buffer = 14, .buffer_count = 5},  // before zbin_pack  passes.rg:187
-    {.first_image = 30, .image_count = 7, .first_buffer = 19, .buffer_count = 5},  // before deferred_light[0]  passes.rg:270
-    {.first_image = 37, .image_count = 1, .first_buffer = 24, .buffer_count = 1},  // before transparent  passes.rg:287
-    {.first_image = 38, .image_count = 3},  // before resolve_temporal  passes.rg:353
-    {.first_image = 41, .image_count = 3},  // before bloom_first  passes.rg:363
-    {.first_image = 44, .image_count = 1},  // before bloom_down[1]  passes.rg:370
-    {.first_image = 45, .image_count = 1},  // before bloom_down[2]  passes.rg:370
-    {.first_image = 46, .image_count = 1},  // before bloom_down[3]  passes.rg:370
-    {.first_image = 47, .image_count = 3},  // before debug_view  passes.rg:313
-    {.first_image = 50, .image_count = 1, .first_buffer = 25, .buffer_count = 1},  // before luminance  passes.rg:338
-    {.first_image = 51, .image_count = 2, .first_buffer = 26, .buffer_count = 1},  // before expose  passes.rg:345
-    {.first_image = 53, .image_count = 2},  // before bloom_up[2]  passes.rg:378
-    {.first_image = 55, .image_count = 2},  // before bloom_up[3]  passes.rg:378
-    {.first_image = 57, .image_count = 2},  // before bloom_up[4]  passes.rg:378
-    {.first_image = 59, .image_count = 2},  // before bloom_up[5]  passes.rg:378
-    {.first_image = 61, .image_count = 3, .first_buffer = 27, .buffer_count = 1},  // before tonemap  passes.rg:385
-    {.first_image = 64, .image_count = 1, .first_buffer = 28, .buffer_count = 1},  // at the end of the frame
+    {.image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before depth_world  passes.rg:135
+    {.first_image = 1, .image_count = 2},  // before depth_range_first  passes.rg:153
+    {.first_image = 3, .image_count = 1},  // before depth_range_down[1]  passes.rg:160
+    {.first_image = 4, .image_count = 1},  // before depth_range_down[2]  passes.rg:160
+    {.first_image = 5, .image_count = 1},  // before depth_range_down[3]  passes.rg:160
+    {.first_image = 6, .image_count = 1},  // before depth_range_down[4]  passes.rg:160
+    {.first_image = 7, .image_count = 1},  // before depth_range_down[5]  passes.rg:160
+    {.first_image = 8, .image_count = 1},  // before depth_range_down[6]  passes.rg:160
+    {.first_image = 9, .image_count = 1, .first_buffer = 3, .buffer_count = 2},  // before lamp_cull  passes.rg:106
+    {.first_image = 10, .image_count = 8, .first_buffer = 5, .buffer_count = 5},  // before sun_shadow_world  passes.rg:85
+    {.first_image = 18, .image_count = 9, .first_buffer = 10, .buffer_count = 7},  // before froxel_fog.merged  passes/fog/fog.rg:125
+    {.first_image = 27, .image_count = 7, .first_buffer = 17, .buffer_count = 5},  // before deferred_light[0]  passes.rg:270
+    {.first_image = 34, .image_count = 1, .first_buffer = 22, .buffer_count = 1},  // before transparent  passes.rg:287
+    {.first_image = 35, .image_count = 3},  // before resolve_temporal  passes.rg:353
+    {.first_image = 38, .image_count = 3},  // before bloom_first  passes.rg:363
+    {.first_image = 41, .image_count = 1},  // before bloom_down[1]  passes.rg:370
+    {.first_image = 42, .image_count = 1},  // before bloom_down[2]  passes.rg:370
+    {.first_image = 43, .image_count = 1},  // before bloom_down[3]  passes.rg:370
+    {.first_image = 44, .image_count = 1},  // before bloom_down[4]  passes.rg:370
+    {.first_image = 45, .image_count = 1},  // before bloom_down[5]  passes.rg:370
+    {.first_image = 46, .image_count = 2},  // before bloom_up[1]  passes.rg:378
+    {.first_image = 48, .image_count = 2},  // before bloom_up[2]  passes.rg:378
+    {.first_image = 50, .image_count = 2},  // before luminance.clear  passes.rg:338
+    {.first_image = 52, .image_count = 2, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:338
+    {.first_image = 54, .image_count = 4, .first_buffer = 24, .buffer_count = 1},  // before debug_view  passes.rg:313
+    {.first_image = 58, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:385
+    {.first_image = 61, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1525,14 +1504,14 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::cull_counts}, .queue = 0, .discard = true},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 150, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 143, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1613,20 +1592,20 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader, .queue = 0,
      .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 151, .size = 151}},
+     .bytes = {.offset = 150, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 152, .size = 151}},
+     .bytes = {.offset = 151, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 153, .size = 151}},
+     .bytes = {.offset = 152, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 80, .size = 151}},
+     .bytes = {.offset = 79, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 154, .size = 151}},
+     .bytes = {.offset = 153, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 155, .size = 151}},
-    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 156}},
+     .bytes = {.offset = 154, .size = 150}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 155}},
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .queue = 0, .discard = true},
 };
 
@@ -1652,14 +1631,14 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::cull_counts}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .stages = stage::fragment_shader | stage::compute_shader,
      .layout = Layout::depth_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 150, .size = 148}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 143, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1},
@@ -1751,20 +1730,20 @@ constexpr Boundary kExit[] = {
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 151}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 151, .size = 151}},
+     .bytes = {.offset = 150, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 152, .size = 151}},
+     .bytes = {.offset = 151, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 153, .size = 151}},
+     .bytes = {.offset = 152, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 80, .size = 151}},
+     .bytes = {.offset = 79, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 154, .size = 151}},
+     .bytes = {.offset = 153, .size = 150}},
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true,
-     .bytes = {.offset = 155, .size = 151}},
-    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 156}},
+     .bytes = {.offset = 154, .size = 150}},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 155}},
     {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .queue = 0, .discard = true},
 };
 
@@ -1773,100 +1752,100 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 0},
     {.resource = resource::sun_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
      .first_clock = 2},
-    {.resource = resource::sun_shadow, .group = 2, .image_barrier = 0, .image_barriers = 1,
+    {.resource = resource::sun_shadow, .group = 11, .image_barrier = 10, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 6},
-    {.resource = resource::lamp_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
-     .first_clock = 4},
-    {.resource = resource::scattered, .group = 6, .image_barrier = 12, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 6, .first_clock = 16},
-    {.resource = resource::transmittance, .group = 6, .image_barrier = 13, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 6, .first_clock = 18},
-    {.resource = resource::froxel_fog_cluster_volumes, .group = 5, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 5, .first_clock = 12},
-    {.resource = resource::froxel_fog_cluster_lights, .group = 5, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 5, .first_clock = 14},
-    {.resource = resource::depth, .group = 2, .image_barrier = 2, .image_barriers = 1,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 11, .first_clock = 16},
+    {.resource = resource::lamp_draws, .group = 10, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 10,
+     .first_clock = 8},
+    {.resource = resource::scattered, .group = 12, .image_barrier = 20, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 36},
+    {.resource = resource::transmittance, .group = 12, .image_barrier = 21, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 38},
+    {.resource = resource::froxel_fog_cluster_volumes, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 11, .first_clock = 18},
+    {.resource = resource::froxel_fog_cluster_lights, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 11, .first_clock = 20},
+    {.resource = resource::depth, .group = 2, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 8},
-    {.resource = resource::depth_range, .group = 3, .image_barrier = 5, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 3, .first_clock = 10},
-    {.resource = resource::zbin_min, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 20},
-    {.resource = resource::zbin_max, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 22},
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
+    {.resource = resource::depth_range, .group = 3, .image_barrier = 2, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 3, .first_clock = 6},
+    {.resource = resource::zbin_min, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 10},
+    {.resource = resource::zbin_max, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 12},
     {.resource = resource::zbins, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 40},
-    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 24},
+    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 14},
     {.resource = resource::tile_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 42},
     {.resource = resource::forward_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 44},
     {.resource = resource::tile_records, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 11,
-     .first_clock = 26},
-    {.resource = resource::tile_kernels, .group = 12, .image_barrier = 27, .image_barriers = 1, .stages = stage::compute_shader,
+     .first_clock = 22},
+    {.resource = resource::tile_kernels, .group = 12, .image_barrier = 24, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 12, .first_clock = 46},
-    {.resource = resource::albedo, .group = 11, .image_barrier = 22, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::albedo, .group = 11, .image_barrier = 13, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 24},
+    {.resource = resource::normal, .group = 11, .image_barrier = 14, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 26},
+    {.resource = resource::material, .group = 11, .image_barrier = 15, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 28},
-    {.resource = resource::normal, .group = 11, .image_barrier = 23, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::emissive, .group = 11, .image_barrier = 16, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 30},
-    {.resource = resource::material, .group = 11, .image_barrier = 24, .image_barriers = 1, .stages = stage::color_attachment_output,
+    {.resource = resource::velocity, .group = 11, .image_barrier = 17, .image_barriers = 1, .stages = stage::color_attachment_output,
      .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
-    {.resource = resource::emissive, .group = 11, .image_barrier = 25, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 34},
-    {.resource = resource::velocity, .group = 11, .image_barrier = 26, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 11, .first_clock = 36},
-    {.resource = resource::occlusion, .group = 12, .image_barrier = 29, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::occlusion, .group = 12, .image_barrier = 26, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 12, .first_clock = 48},
-    {.resource = resource::hdr, .group = 13, .image_barrier = 36, .image_barriers = 1, .stages = stage::compute_shader,
+    {.resource = resource::hdr, .group = 13, .image_barrier = 33, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
-    {.resource = resource::debug_image, .group = 20, .image_barrier = 48, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 20, .first_clock = 56},
-    {.resource = resource::histogram, .group = 20, .stages = stage::clear, .accesses = access::transfer_write, .point = 20, .first_clock = 58},
-    {.resource = resource::bloom, .group = 16, .image_barrier = 42, .image_barriers = 2, .stages = stage::compute_shader,
+    {.resource = resource::debug_image, .group = 26, .image_barrier = 55, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 26, .first_clock = 58},
+    {.resource = resource::histogram, .group = 24, .stages = stage::clear, .accesses = access::transfer_write, .point = 24, .first_clock = 56},
+    {.resource = resource::bloom, .group = 16, .image_barrier = 39, .image_barriers = 2, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 16, .first_clock = 54},
     {.resource = resource::deferred_light_arguments, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11,
-     .first_clock = 38},
+     .first_clock = 34},
     {.resource = resource::deferred_light_tiles, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
      .first_clock = 50},
 };
 
 constexpr Release kReleases[] = {
     {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 12},
-    {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 3},
+    {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 12},
     {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 15},
-    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 6},
-    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
-    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
-    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 7},
-    {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 7},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 21},
+    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 12},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
+    {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 27},
     {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 13},
     {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 13},
     {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
     {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 21},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::tile_kernels, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 21},
-    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 22},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
+    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::tile_kernels, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::normal, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::material, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 27},
     {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 28},
-    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 23},
+    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 27},
     {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 28},
     {.resource = resource::deferred_light_arguments, .stages = stage::draw_indirect, .point = 14},
     {.resource = resource::deferred_light_tiles, .stages = stage::compute_shader, .point = 14},
 };
 
 constexpr Index kAliasClocks[] = {
-    1, 29, 1, 29, 1, 29, 2, 29, 2, 29, 3, 29, 5, 29, 5, 29,
-    6, 29, 6, 29, 10, 29, 10, 29, 10, 29, 11, 29, 11, 29, 11, 29,
-    11, 29, 11, 29, 11, 29, 11, 29, 12, 29, 12, 29, 12, 29, 12, 29,
-    12, 29, 12, 29, 13, 29, 16, 29, 20, 29, 20, 29,
+    1, 29, 1, 29, 2, 29, 3, 29, 10, 29, 10, 29, 10, 29, 10, 29,
+    11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29,
+    11, 29, 11, 29, 12, 29, 12, 29, 12, 29, 12, 29, 12, 29, 12, 29,
+    12, 29, 12, 29, 13, 29, 16, 29, 24, 29, 26, 29,
 };
 
 constexpr Queue kQueues[] = {
@@ -1878,29 +1857,16 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::mesh_cull_world_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
-    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::barriers, .index = 2},
-    {.kind = StepKind::pass, .index = pass::sun_shadow_world},
-    {.kind = StepKind::pass, .index = pass::sun_shadow_props},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
     {.kind = StepKind::pass, .index = pass::depth_world},
     {.kind = StepKind::pass, .index = pass::depth_props},
     {.kind = StepKind::barriers, .index = 3},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
     {.kind = StepKind::pass, .index = pass::depth_range_first},
     {.kind = StepKind::barriers, .index = 4},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 5},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 6},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_merged},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
     {.kind = StepKind::barriers, .index = 7},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
@@ -1909,10 +1875,22 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 9},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
     {.kind = StepKind::barriers, .index = 10},
+    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_7},
     {.kind = StepKind::pass, .index = pass::zbin_build_clear},
     {.kind = StepKind::pass, .index = pass::light_occlusion_clear},
     {.kind = StepKind::barriers, .index = 11},
+    {.kind = StepKind::pass, .index = pass::sun_shadow_world},
+    {.kind = StepKind::pass, .index = pass::sun_shadow_props},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::pass, .index = pass::light_occlusion},
     {.kind = StepKind::pass, .index = pass::tile_cull},
@@ -1920,6 +1898,7 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::gbuffer_props},
     {.kind = StepKind::pass, .index = pass::deferred_light_reset},
     {.kind = StepKind::barriers, .index = 12},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_merged},
     {.kind = StepKind::pass, .index = pass::zbin_pack},
     {.kind = StepKind::pass, .index = pass::light_cull},
     {.kind = StepKind::pass, .index = pass::ambient_occlusion},
@@ -1947,22 +1926,22 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 19},
     {.kind = StepKind::pass, .index = pass::bloom_down_3},
     {.kind = StepKind::barriers, .index = 20},
-    {.kind = StepKind::pass, .index = pass::debug_view},
-    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_down_4},
     {.kind = StepKind::barriers, .index = 21},
-    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_5},
     {.kind = StepKind::barriers, .index = 22},
-    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_1},
     {.kind = StepKind::barriers, .index = 23},
     {.kind = StepKind::pass, .index = pass::bloom_up_2},
     {.kind = StepKind::barriers, .index = 24},
+    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_up_3},
     {.kind = StepKind::barriers, .index = 25},
+    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_up_4},
     {.kind = StepKind::barriers, .index = 26},
+    {.kind = StepKind::pass, .index = pass::debug_view},
+    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_5},
     {.kind = StepKind::barriers, .index = 27},
     {.kind = StepKind::pass, .index = pass::tonemap},
@@ -1974,6 +1953,8 @@ constexpr Batch kBatches[] = {
 };
 
 constexpr Attachment kAttachments[] = {
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
@@ -1982,8 +1963,6 @@ constexpr Attachment kAttachments[] = {
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 3, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 4, .layers = 1},
@@ -2015,11 +1994,11 @@ constexpr Attachment kAttachments[] = {
 };
 
 constexpr Rendering kRenderings[] = {
-    {.depth = 0, .width = 5, .height = 5},
-    {.depth = 1, .width = 0, .height = 0},
+    {.depth = 0, .width = 1, .height = 2},
+    {.depth = 1, .width = 5, .height = 5},
     {.depth = 2, .width = 0, .height = 0},
     {.depth = 3, .width = 0, .height = 0},
-    {.depth = 4, .width = 1, .height = 2},
+    {.depth = 4, .width = 0, .height = 0},
     {.depth = 5, .width = 0, .height = 0},
     {.depth = 6, .width = 0, .height = 0},
     {.depth = 7, .width = 0, .height = 0},
@@ -2032,16 +2011,15 @@ constexpr Rendering kRenderings[] = {
 
 constexpr ShaderModule kShaders[] = {
     {.name = "rgc/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_mesh_cull_comp},
-    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
-    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
-    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
-    {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
     {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
     {.name = "passes/geometry/depth_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_props_vert},
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
+    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
+    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
+    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
+    {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
     {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
-    {.name = "rgc/froxel_fog.merged.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp},
     {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
     {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "passes/culling/tile_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_tile_cull_comp},
@@ -2049,6 +2027,7 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
     {.name = "passes/geometry/gbuffer_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_props_vert},
     {.name = "passes/geometry/gbuffer_props.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_props_frag},
+    {.name = "rgc/froxel_fog.merged.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp},
     {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
     {.name = "passes/culling/light_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_cull_comp},
     {.name = "passes/lighting/ambient_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_ambient_occlusion_comp},
@@ -2066,20 +2045,20 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/post/resolve_temporal.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_resolve_temporal_comp},
     {.name = "passes/post/bloom_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_first_comp},
     {.name = "passes/post/bloom_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_down_comp},
-    {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
+    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
     {.name = "passes/post/luminance.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp},
     {.name = "passes/post/luminance.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp_2},
+    {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
     {.name = "passes/post/expose.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_expose_comp},
-    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = frame::spirv::rgc_fullscreen_vert},
     {.name = "passes/post/tonemap.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_post_tonemap_frag},
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 4, 4, 5, 6, 4, 4, 7, 4, 4, 8, 4,
-    9, 8, 10, 8, 8, 8, 8, 8, 11, 12, 13, 14, 15, 16, 17, 18,
+    0, 1, 2, 3, 4, 4, 4, 4, 4, 4, 5, 4, 6, 7, 8, 8,
+    8, 8, 8, 8, 8, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18,
     19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34,
-    34, 34, 35, 34, 36, 37, 34, 38, 39, 39, 39, 39, 39, 40, 41,
+    34, 34, 34, 34, 35, 35, 35, 36, 37, 35, 38, 39, 35, 40, 41,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -2127,50 +2106,50 @@ constexpr VertexAttribute kVertexAttributes[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "mesh_cull", .pass = pass::mesh_cull, .shader_count = 1},
-    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 1, .shader_count = 1},
-    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 2, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 3, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 4, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 5, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 6, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 7, .shader_count = 1,
+    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 1, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
-    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 8, .shader_count = 1,
-     .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1,
-     .first_vertex_attribute = 6, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 9, .shader_count = 1,
+    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 2, .shader_count = 1,
+     .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
+    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 3, .shader_count = 1},
+    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 4, .shader_count = 1},
+    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 5, .shader_count = 1},
+    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 6, .shader_count = 1},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 7, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 8, .shader_count = 1},
+    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 9, .shader_count = 1},
+    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 10, .shader_count = 1},
+    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 11, .shader_count = 1},
+    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 12, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 10, .shader_count = 1,
+    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 13, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1, .first_vertex_attribute = 6,
+     .vertex_attribute_count = 6},
+    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 14, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 11, .shader_count = 1},
-    {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 12, .shader_count = 1,
+    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 15, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 13, .shader_count = 1,
+    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 16, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 14, .shader_count = 1},
-    {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 15, .shader_count = 1,
+    {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 17, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 16, .shader_count = 1},
-    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 17, .shader_count = 1},
-    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 18, .shader_count = 1},
-    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 19, .shader_count = 1},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 20, .shader_count = 1},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 21, .shader_count = 1},
-    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 22, .shader_count = 1},
-    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 23, .shader_count = 1},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 24, .shader_count = 1},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 25, .shader_count = 1},
-    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 26, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 27, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 18, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 19, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 20, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 21, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 22, .shader_count = 1},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 23, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 24, .shader_count = 1},
+    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 25, .shader_count = 1},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .blend_count = 5},
-    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 29, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 28, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 30, .shader_count = 1},
     {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 31, .shader_count = 1},
     {.name = "light_cull", .pass = pass::light_cull, .first_shader = 32, .shader_count = 1},
     {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 33, .shader_count = 1},
@@ -2190,16 +2169,16 @@ constexpr Pipeline kPipelines[] = {
     {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 47, .shader_count = 1},
     {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 48, .shader_count = 1},
     {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 49, .shader_count = 1},
-    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 50, .shader_count = 1},
-    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 51, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 52, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 53, .shader_count = 1},
-    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 54, .shader_count = 1},
-    {.name = "expose", .pass = pass::expose, .first_shader = 55, .shader_count = 1},
-    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 56, .shader_count = 1},
-    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 57, .shader_count = 1},
-    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 58, .shader_count = 1},
-    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 59, .shader_count = 1},
+    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 50, .shader_count = 1},
+    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 51, .shader_count = 1},
+    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 52, .shader_count = 1},
+    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 53, .shader_count = 1},
+    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 54, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 55, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 56, .shader_count = 1},
+    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 57, .shader_count = 1},
+    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 58, .shader_count = 1},
+    {.name = "expose", .pass = pass::expose, .first_shader = 59, .shader_count = 1},
     {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 60, .shader_count = 1},
     {.name = "tonemap", .pass = pass::tonemap, .first_shader = 61, .shader_count = 2, .first_blend = 11, .blend_count = 1},
 };
@@ -2210,10 +2189,47 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
+    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // depth_range_first
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
+     .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[6]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::general},  // depth_range_down[6]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
     {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
@@ -2231,11 +2247,6 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
-    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[3]
@@ -2244,10 +2255,6 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[4]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[4]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[4]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // depth_range_first
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[5]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
@@ -2256,10 +2263,6 @@ constexpr Binding kBindings[] = {
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
-     .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // depth_range_down[1]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
@@ -2273,52 +2276,6 @@ constexpr Binding kBindings[] = {
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.merged
-    // froxel_fog.merged
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
-    {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
-     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.merged
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.merged
-    // froxel_fog.merged
-    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
-    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // froxel_fog.merged
-    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
-     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.merged
-    {.binding = 7, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.merged
-    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
-    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
-     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
-    {.binding = 10, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
-     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
-    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.merged
-    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.merged
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[6]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::general},  // depth_range_down[6]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
@@ -2344,6 +2301,28 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
     {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_props
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
+    {.binding = 2, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
+     .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // froxel_fog.merged
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.merged
+    // froxel_fog.merged
+    {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 5, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 6, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::lamp_shadow},
+     .range = {.aspects = aspect_depth}, .arrayed = true, .layout = Layout::depth_read_only},  // froxel_fog.merged
+    {.binding = 7, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::froxel_fog_memory, .age = 1},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::shader_read_only, .sampler = 0},  // froxel_fog.merged
+    {.binding = 8, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::froxel_fog_memory},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 9, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::scattered}, .range = {.aspects = aspect_color},
+     .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 10, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::transmittance},
+     .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
+    {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.merged
+    {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.merged
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // zbin_pack
@@ -2662,6 +2641,33 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // luminance
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // debug_view
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
@@ -2693,37 +2699,10 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
     {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
     {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // luminance
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // expose
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure, .age = 1}},  // expose
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure}},  // expose
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // expose
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -2750,8 +2729,8 @@ constexpr Params kParams[] = {
 };
 
 constexpr Index kPassParams[] = {
-    0, 0, 2, 0, 0, 2, 2, 2, 0, 0, 2, 2, 2, 2, 2, 0,
-    1, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 1,
+    0, 0, 0, 0, 2, 0, 0, 2, 2, 2, 2, 2, 2, 2, 2, 0,
+    1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 1,
     0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0,
     0,
 };
@@ -2770,7 +2749,7 @@ constexpr Index kPassFeatures[] = {
 };
 
 constexpr Index kPipelineChoices[] = {
-    49, 50,
+    52, 53,
 };
 
 constexpr std::string_view kConditions[] = {

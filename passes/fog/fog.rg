@@ -98,8 +98,8 @@ technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer 
 technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow,
     image lamp_shadow, inout image scattered, inout image transmittance)
 {
-  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
-  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area]
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * LIGHT_WORDS]
   image  density         : r16f froxels
   image  inscatter       : r11g11b10f froxels
   image  extinction      : r16f froxels
@@ -114,8 +114,8 @@ technique froxel_fog(params camera: View, params fog: Fog, buffer lights, buffer
 technique merged_fog(params camera: View, params fog: Fog, buffer lights, buffer volumes, image albedo_maps, image sun_shadow,
     image lamp_shadow, inout image scattered, inout image transmittance)
 {
-  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
-  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area]
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * LIGHT_WORDS]
   image  density         : r16f froxels
   image  inscatter       : r11g11b10f froxels
   image  extinction      : r16f froxels

@@ -4,32 +4,14 @@
 #include <bit>
 #include <cstdlib>
 #include <cstring>
-#include <map>
 #include <optional>
 
-#include "compiler/compile.h"
 #include "compiler/verify/verify.h"
 #include "runtime/graph.h"
+#include "tests/unit/e2e/compiled.h"
 
 namespace rg::test {
 namespace {
-
-using Files = std::map<std::string, std::string>;
-
-compiler::CompileResult compile_files(const Files& files) {
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = files.find(path);
-    if (file != files.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
-  compiler::CompileOptions options;
-  options.until = compiler::Until::plans;
-  dsl::Diagnostics diagnostics;
-  compiler::CompileResult result = compiler::compile("frame.rg", read, options, diagnostics);
-  EXPECT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);
-  return result;
-}
 
 void expect_proved(const compiler::CompileResult& result) {
   for (const compiler::CompiledGraph& graph : result.graphs)

@@ -3,15 +3,14 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <map>
 
-#include "compiler/compile.h"
 #include "runtime/graph.h"
+#include "tests/unit/e2e/compiled.h"
 
 namespace rg::test {
 namespace {
 
-const std::map<std::string, std::string> kFiles = {{"frame.rg", R"(module frame
+const Files kFiles = {{"frame.rg", R"(module frame
 feature double_it : bool
 feature path      : { low, mid, high }
 graph frame() {
@@ -43,17 +42,7 @@ std::vector<uint32_t> words_of(GraphInstance& graph) {
 }
 
 TEST(Features, ChooseTheVariantOfEachFrame) {
-  dsl::Diagnostics diagnostics;
-  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = kFiles.find(path);
-    if (file != kFiles.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
-  compiler::CompileOptions compile_options;
-  compile_options.until = compiler::Until::plans;
-  const compiler::CompileResult result = compiler::compile("frame.rg", read, compile_options, diagnostics);
-  ASSERT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);
+  const compiler::CompileResult result = compile_files(kFiles);
   ASSERT_EQ(result.graphs[0].plans.size(), 1u);
   auto device = Device::create({});
   if (!device && std::getenv("RGC_REQUIRE_GPU")) FAIL() << device.error().message;
@@ -79,7 +68,7 @@ TEST(Features, ChooseTheVariantOfEachFrame) {
 }
 
 // Adds where `add` is on, and sums a row by what the device has.
-const std::map<std::string, std::string> kDevice = {{"frame.rg", R"(module frame
+const Files kDevice = {{"frame.rg", R"(module frame
 feature add  : bool
 feature sums : device subgroup_arithmetic
 graph frame() {
@@ -121,21 +110,6 @@ void main() {
 )"},
                                                    {"more.comp", "void main() { shown[gl_LocalInvocationIndex] += 1000u; }\n"}};
 
-compiler::CompileResult compile_device_frame() {
-  dsl::Diagnostics diagnostics;
-  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = kDevice.find(path);
-    if (file != kDevice.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
-  compiler::CompileOptions options;
-  options.until = compiler::Until::plans;
-  compiler::CompileResult result = compiler::compile("frame.rg", read, options, diagnostics);
-  EXPECT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);
-  return result;
-}
-
 void expect_frames(Device& device, const Plan& plan) {
   auto graph = GraphInstance::create(device, plan, {});
   ASSERT_TRUE(graph) << graph.error().message;
@@ -154,7 +128,7 @@ void expect_frames(Device& device, const Plan& plan) {
 }
 
 TEST(Features, OfTheDeviceAndOfFramesGiveTheSameResult) {
-  const compiler::CompileResult result = compile_device_frame();
+  const compiler::CompileResult result = compile_files(kDevice);
   ASSERT_EQ(result.graphs[0].plans.size(), 1u);
   const Plan plan = result.graphs[0].plans[0].plan.view();
   ASSERT_EQ(plan.features.size(), 2u);
@@ -174,7 +148,7 @@ TEST(Features, OfTheDeviceAndOfFramesGiveTheSameResult) {
 
 // What does not fit the device is not created: a null device tells pipelines by the SPIR-V they are made of.
 TEST(Features, PipelinesThatTheDeviceCannotRunAreNotCreated) {
-  const compiler::CompileResult result = compile_device_frame();
+  const compiler::CompileResult result = compile_files(kDevice);
   const Plan plan = result.graphs[0].plans[0].plan.view();
   const auto pipelines = [&](std::vector<Capability> has) {
     std::string log;
@@ -189,6 +163,38 @@ TEST(Features, PipelinesThatTheDeviceCannotRunAreNotCreated) {
   };
   EXPECT_EQ(pipelines({}), 2u);
   EXPECT_EQ(pipelines({Capability::subgroup_arithmetic}), 2u);
+}
+
+// Where `when` asks for what the device can do there is a plan for each answer, and the one with it is not for devices without.
+TEST(Features, PlansForDevicesThatCanAreRefusedByTheOthers) {
+  const Files files = {{"frame.rg", R"(module frame
+feature wide : device subgroup_size_64
+graph frame() {
+  buffer shown : u32[64] readback
+  when wide {
+    pass fast : compute { shader "show.comp" group 64 1 1  write shown as storage  dispatch over 64 }
+  } else {
+    pass slow : compute { shader "show.comp" group 32 1 1  write shown as storage  dispatch over 64 }
+  }
+}
+)"},
+                       {"show.comp", "void main() { shown[gl_GlobalInvocationID.x] = gl_LocalInvocationIndex; }\n"}};
+  const compiler::CompileResult result = compile_files(files);
+  ASSERT_EQ(result.graphs[0].plans.size(), 2u);
+  const Plan without = result.graphs[0].plans[0].plan.view(), with = result.graphs[0].plans[1].plan.view();
+  EXPECT_TRUE(without.needs.empty());
+  ASSERT_EQ(with.needs.size(), 1u);
+  EXPECT_EQ(with.needs[0], Capability::subgroup_size_64);
+  Device plain = Device::null(nullptr);
+  EXPECT_TRUE(GraphInstance::create(plain, without, {}));
+  const auto refused = GraphInstance::create(plain, with, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+  EXPECT_NE(refused.error().message.find("subgroup_size_64"), std::string::npos) << refused.error().message;
+  NullOptions options;
+  options.capabilities = {Capability::subgroup_size_64};
+  Device able = Device::null(nullptr, options);
+  EXPECT_TRUE(GraphInstance::create(able, with, {}));
 }
 
 }  // namespace

@@ -3,18 +3,18 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <map>
 
 #include "compiler/compile.h"
 #include "compiler/verify/verify.h"
 #include "runtime/graph.h"
+#include "tests/unit/e2e/compiled.h"
 
 namespace rg::test {
 namespace {
 
 constexpr uint32_t kWidth = 203, kHeight = 117, kTile = 8;
 
-const std::map<std::string, std::string> kFiles = {{"tiles.rg", R"(module tiles
+const Files kFiles = {{"tiles.rg", R"(module tiles
 extent view = runtime(203, 117) max(512, 512)
 const TILE = 8
 spectrum kinds {
@@ -71,16 +71,10 @@ graph frame() {
   { "features": ["red", "deep_red"], "tiles": 70 } ] } ] })"}};
 
 compiler::CompileResult compile_tiles(std::optional<uint32_t> modes, dsl::Diagnostics& diagnostics) {
-  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = kFiles.find(path);
-    if (file != kFiles.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;
   options.spectrum_modes = modes;
-  return compiler::compile("tiles.rg", read, options, diagnostics);
+  return compiler::compile("tiles.rg", reader_of(kFiles), options, diagnostics);
 }
 
 uint32_t mask_of(uint32_t i) {

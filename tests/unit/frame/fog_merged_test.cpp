@@ -47,8 +47,8 @@ graph lab(params camera: View, params fog: Fog, world: World)
   image exact_through : r32f froxels output
   image wide_light    : rgba32f froxels output
   image wide_through  : r32f froxels output
-  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z]
-  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * ceil(froxels / FOG_CLUSTER).z * LIGHT_WORDS]
+  buffer cluster_volumes : u32[ceil(froxels / FOG_CLUSTER).area]
+  buffer cluster_lights  : u32[ceil(froxels / FOG_CLUSTER).area * LIGHT_WORDS]
   use clusters = fog_clusters(camera, fog, world.lights, world.fog_volumes, cluster_volumes, cluster_lights)
   use exact = fog_chain(camera, fog, world.lights, world.fog_volumes, cluster_volumes, cluster_lights, world.albedo_maps, sun_shadow,
                         lamp_shadow, density, inscatter, extinction, memory, exact_light, exact_through)
