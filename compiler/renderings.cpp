@@ -55,7 +55,7 @@ bool resolves(const dsl::Pass& pass) {
 class Finder {
  public:
   Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options)
-      : frame_(frame), options_(options), live_(live), before_(frame.passes.size()), result_(separate_renderings(frame)), members_(frame.passes.size()) {
+      : frame_(frame), options_(options), live_(live), before_(frame.passes.size()), result_(separate_renderings(frame)), members_(frame.passes.size()), seen_from_(frame.passes.size(), UINT32_MAX) {
     for (const Dependency& d : graph.dependencies) before_[d.after].push_back(&d);
   }
 
@@ -75,21 +75,22 @@ class Finder {
     const Key key = key_of(frame_, frame_.pass(pass));
     if (key.empty()) return;
     const auto [row, is_new] = last_.try_emplace(key, pass);
-    if (is_new) return;
+    if (is_new) return remember(pass, pass);
     const uint32_t leader = row->second;
     const std::string obstacle = obstacle_to(leader, pass);
     if (!obstacle.empty()) {
       note(pass, "not merged", fmt::format("a rendering of its own, though its attachments are those of `{}`: {}", name(members_[leader].back()), obstacle));
       row->second = pass;
-      return;
+      return remember(pass, pass);
     }
+    remember(leader, pass);
     result_.leader_of[pass] = leader;
     members_[leader].push_back(pass);
     links_.push_back(pass);
   }
 
   // Empty, or why `pass` cannot follow in the rendering that `leader` begins, and what would change that.
-  std::string obstacle_to(uint32_t leader, uint32_t pass) const {
+  std::string obstacle_to(uint32_t leader, uint32_t pass) {
     const dsl::Pass &first = frame_.pass(leader), &row = frame_.pass(pass);
     const uint32_t last = members_[leader].back();
     for (const uint32_t one : {last, pass})
@@ -137,31 +138,48 @@ class Finder {
 
   // Attachments of the passes in different layouts: one of them reads depth only. It can use the other's, unless it samples what it tests.
   std::string layout_obstacle(uint32_t leader, uint32_t pass) const {
-    for (const uint32_t member : members_[leader])
-      for (const auto& [use, other] : differing(member, pass)) {
-        const uint32_t reader = frame_.uses[use].writes() ? frame_.uses[other].pass : frame_.uses[use].pass;
-        const uint32_t cell = frame_.uses[use].cell;
-        if (frame_.uses[use].writes() == frame_.uses[other].writes() || is_other(reader, cell))
-          return fmt::format("`{}` also reads `{}` in a shader, which takes another layout", name(reader), frame_.resource_of(cell).name);
+    const auto found = attachments_.find(leader);
+    if (found == attachments_.end()) return {};
+    for (const AttachmentUse& use : attachment_uses(pass)) {
+      const auto [begin, end] = found->second.equal_range(use.cell);
+      for (auto row = begin; row != end; ++row) {
+        const AttachmentUse& other = row->second;
+        if (other.layout == use.layout) continue;
+        const AttachmentUse& reader = use.writes ? other : use;
+        if (use.writes == other.writes || reader.is_sampled)
+          return fmt::format("`{}` also reads `{}` in a shader, which takes another layout", name(reader.pass), frame_.resource_of(use.cell).name);
       }
+    }
     return {};
   }
-  // Uses of one cell as an attachment by both, in different layouts.
-  std::vector<std::pair<size_t, size_t>> differing(uint32_t a, uint32_t b) const {
-    std::vector<std::pair<size_t, size_t>> pairs;
-    size_t i = frame_.first_use[a], j = frame_.first_use[b];
-    while (i < frame_.first_use[a + 1] && j < frame_.first_use[b + 1]) {
-      const Use &left = frame_.uses[i], &right = frame_.uses[j];
-      if (left.cell == right.cell && left.effect.layout != right.effect.layout) pairs.emplace_back(i, j);
-      left.cell <= right.cell ? ++i : ++j;
+
+  struct AttachmentUse {
+    uint32_t cell = 0, pass = 0;
+    size_t use = 0;  // of the frame
+    Layout layout = Layout::undefined;
+    bool writes = false, is_sampled = false;
+    bool is_alike(const AttachmentUse& other) const { return layout == other.layout && writes == other.writes && is_sampled == other.is_sampled; }
+  };
+  std::vector<AttachmentUse> attachment_uses(uint32_t pass) const {
+    std::vector<AttachmentUse> uses;
+    for (size_t i = frame_.first_use[pass]; i < frame_.first_use[pass + 1]; ++i) {
+      const Use& use = frame_.uses[i];
+      uses.push_back({use.cell, pass, i, use.effect.layout, use.writes(), is_other(pass, use.cell)});
     }
-    return pairs;
+    return uses;
+  }
+  // One of each kind is enough, so that a rendering of many passes is looked at once a pass.
+  void remember(uint32_t leader, uint32_t pass) {
+    std::multimap<uint32_t, AttachmentUse>& known = attachments_[leader];
+    for (const AttachmentUse& use : attachment_uses(pass)) {
+      const auto [begin, end] = known.equal_range(use.cell);
+      if (std::none_of(begin, end, [&](const auto& row) { return row.second.is_alike(use); })) known.emplace(use.cell, use);
+    }
   }
 
   // A pass outside that depends on the rendering and that `pass` depends on. Renderings count as a whole.
-  std::string way_around(uint32_t leader, uint32_t pass) const {
+  std::string way_around(uint32_t leader, uint32_t pass) {
     std::vector<uint32_t> open{pass};
-    std::vector<uint32_t> from(pass - leader + 1, UINT32_MAX);  // by pass - leader: seen, and whom it comes before
     for (size_t next = 0; next < open.size(); ++next) {
       if (open.size() > kMostBetween) return fmt::format("more than {} passes between them were not searched", kMostBetween);
       for (const uint32_t member : members_[result_.leader_of[open[next]]])
@@ -171,8 +189,8 @@ class Finder {
             if (open[next] == pass) continue;
             return fmt::format("`{}` has to run between them: {} with `{}`", name(d->after), compiler::name(d->kind), name(d->before));
           }
-          if (from[d->before - leader] != UINT32_MAX || d->before > pass) continue;
-          from[d->before - leader] = member;
+          if (seen_from_[d->before] == pass || d->before > pass) continue;
+          seen_from_[d->before] = pass;
           open.push_back(d->before);
         }
     }
@@ -228,18 +246,26 @@ class Finder {
              fmt::format("continues the rendering of `{}`, whose attachments it shares: no barrier, no store and no load between them; with "
                          "`--no-merge={}` it would be one of its own",
                          name(previous[leader]), name(pass)));
-        take_layouts(leader, pass);
       }
       previous[leader] = pass;
     }
+    take_layouts();
   }
-  void take_layouts(uint32_t leader, uint32_t pass) {
-    for (uint32_t member = leader; member < pass; ++member)
-      if (result_.leader_of[member] == leader)
-        for (const auto& [use, other] : differing(member, pass)) {
-          const bool first_writes = frame_.uses[use].writes();
-          result_.layouts.push_back({first_writes ? other : use, frame_.uses[first_writes ? use : other].effect.layout});
-        }
+  // Who only reads an attachment takes the layout of those who write it in the same rendering.
+  void take_layouts() {
+    std::map<std::pair<uint32_t, uint32_t>, Layout> written;  // by leader and cell
+    const auto each_use = [&](auto visit) {
+      for (uint32_t pass = 0; pass < frame_.passes.size(); ++pass)
+        if (frame_.pass(pass).kind == dsl::PassKind::raster)
+          for (size_t use = frame_.first_use[pass]; use < frame_.first_use[pass + 1]; ++use) visit(result_.leader_of[pass], use, frame_.uses[use]);
+    };
+    each_use([&](uint32_t leader, size_t, const Use& use) {
+      if (use.writes()) written[{leader, use.cell}] = use.effect.layout;
+    });
+    each_use([&](uint32_t leader, size_t index, const Use& use) {
+      const auto row = written.find({leader, use.cell});
+      if (!use.writes() && row != written.end() && row->second != use.effect.layout) result_.layouts.push_back({index, row->second});
+    });
   }
 
   const std::string& name(uint32_t pass) const { return frame_.pass(pass).name; }
@@ -253,6 +279,8 @@ class Finder {
   std::vector<std::vector<uint32_t>> members_;  // by leader, ascending
   std::map<Key, uint32_t> last_;                // leader of the last rendering with these attachments
   std::vector<uint32_t> links_;                 // passes that continue a rendering
+  std::map<uint32_t, std::multimap<uint32_t, AttachmentUse>> attachments_;  // by leader and cell: one of each kind
+  std::vector<uint32_t> seen_from_;                                        // by pass: the last search that came by
 };
 
 }  // namespace

@@ -33,7 +33,7 @@ struct Renderings {
 // Every pass for itself.
 Renderings separate_renderings(const Frame& frame);
 
-// O(attachments + dependencies), and for each pass with the attachments of an earlier one at most 4096 passes between them. Changes nothing; whoever
+// O(attachments + dependencies) log n, and for each pass with the attachments of an earlier one at most 4096 passes between them. Changes nothing; whoever
 // applies `layouts` builds the graph again and asks again.
 Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options);
 
