@@ -125,7 +125,7 @@ std::vector<Capability> needs_of(const dsl::Program& program, dsl::GraphId graph
   const std::vector<bool> of_plans = features_of_plans(program, program.graphs[graph]);
   for (size_t f = 0; f < of_plans.size(); ++f) {
     const dsl::Feature& feature = program.features.rows[f];
-    if (of_plans[f] && feature.capability != dsl::Capability::none && configuration[f] == 1) needs.push_back(static_cast<Capability>(feature.capability));
+    if (of_plans[f] && feature.capability != dsl::Capability::none && configuration[f] == 1) needs.push_back(plan_capability(feature.capability));
   }
   return needs;
 }

@@ -55,7 +55,13 @@ bool resolves(const dsl::Pass& pass) {
 class Finder {
  public:
   Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options)
-      : frame_(frame), options_(options), live_(live), before_(frame.passes.size()), result_(separate_renderings(frame)), members_(frame.passes.size()), seen_from_(frame.passes.size(), UINT32_MAX) {
+      : frame_(frame),
+        options_(options),
+        live_(live),
+        before_(frame.passes.size()),
+        result_(separate_renderings(frame)),
+        members_(frame.passes.size()),
+        seen_from_(frame.passes.size(), UINT32_MAX) {
     for (const Dependency& d : graph.dependencies) before_[d.after].push_back(&d);
   }
 

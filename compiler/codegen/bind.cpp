@@ -246,7 +246,7 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
   const auto same = [&](const Feature& row) { return row.name == feature.name; };
   const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
   if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
-  const auto capability = static_cast<Capability>(feature.capability);
+  const Capability capability = plan_capability(feature.capability);
   b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability});
   return static_cast<Index>(b.plan.features.size() - 1);
 }
@@ -339,6 +339,19 @@ SetRole set_role(uint32_t set) {
 }
 
 }  // namespace
+
+Capability plan_capability(dsl::Capability capability) {
+  switch (capability) {
+#define RG_CAPABILITY(name, meaning) \
+  case dsl::Capability::name:        \
+    return Capability::name;
+#include "dsl/capability.def"
+#undef RG_CAPABILITY
+    case dsl::Capability::none:
+      break;
+  }
+  return Capability::none;
+}
 
 void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle,
                     size_t configuration) {

@@ -13,4 +13,7 @@ namespace rg::compiler {
 // `configuration` is the plan's row in the VariantSpace it was compiled for.
 void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph, const ShaderBundle& bundle, size_t configuration = 0);
 
+// The plan's word for what a device can do.
+Capability plan_capability(dsl::Capability capability);
+
 }  // namespace rg::compiler

@@ -23,12 +23,16 @@ Row& enumerator(Row& row, const char* field, const char* type, size_t value, std
 }
 
 std::string capability_text(Capability capability) {
-  static constexpr const char* kNames[] = {"none",
-#define RG_CAPABILITY(name, meaning) #name,
+  switch (capability) {
+#define RG_CAPABILITY(name, meaning) \
+  case Capability::name:             \
+    return "Capability::" #name;
 #include "dsl/capability.def"
 #undef RG_CAPABILITY
-  };
-  return std::string("Capability::") + kNames[static_cast<size_t>(capability)];
+    case Capability::none:
+      break;
+  }
+  return "Capability::none";
 }
 
 std::string dimension_text(Dimension dimension) { return enum_text("Dimension", static_cast<size_t>(dimension), {"d1", "d2", "d3", "cube"}); }
