@@ -120,9 +120,10 @@ void record_work(const FrameRecording& r, const Pass& pass, const PassTable& tab
 // Each pass of a rendering by itself, with its contents in memory between them: a submit each, or something to read in between.
 bool stands_alone(const FrameRecording& r, Index pass) {
   if (r.state.context.serial || r.state.context.submit_per_pass) return true;
-  if (r.state.dump.pass == kNone || r.state.dump.recorded) return false;
   const Plan& plan = r.state.context.plan;
-  return plan.passes[r.state.dump.pass].rendering == plan.passes[pass].rendering;
+  for (const DumpRequest& dump : r.state.dumps)
+    if (!dump.recorded && plan.passes[dump.pass].rendering == plan.passes[pass].rendering) return true;
+  return false;
 }
 
 void begin_attachments(const FrameRecording& r, const PassRow& row, RenderingTable& table) {
@@ -196,7 +197,7 @@ void record_pass(FrameRecording& r, Index index) {
   else
     record_alone(r, index, row, runs);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
-  if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);
+  if (!r.state.dumps.empty()) record_dumps(r, index);
   if (labels) end_label(r);
   if (r.state.context.serial || (alone && row.shares_rendering && !row.ends_rendering)) wait_for_all(r);
 }

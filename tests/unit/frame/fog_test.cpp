@@ -128,8 +128,9 @@ glm::dvec3 middle_of(const FrameData& data, int x, int y, int z) {
 TEST(FogClusters, HoldEveryLampAndBoxThatReachesAFroxel) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const auto lamps = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_lights);
-  const auto boxes = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_volumes);
+  const std::vector<Dump> dumps = lab.dumps(data, {{pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_lights},
+                                                   {pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_volumes}});
+  const auto lamps = values_of<uint32_t>(dumps[0]), boxes = values_of<uint32_t>(dumps[1]);
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
   const glm::ivec3 count(data.fog.count.x, data.fog.count.y, data.fog.count.z), clusters = (count + 3) / 4;
   uint32_t missing = 0, lit = 0, bits = 0;
