@@ -58,7 +58,7 @@ std::vector<double> pass_costs(const Frame& frame, const std::map<std::string, d
     }
     double bytes = 0;
     for (const dsl::Access& access : pass.accesses) bytes += bytes_touched(frame, access);
-    costs.push_back(kLaunchNs + std::max(bytes / kBytesPerNs, invocations(frame, pass, exprs, extents) / kInvocationsPerNs));
+    costs.push_back(kLaunchNs + pass.work_share * std::max(bytes / kBytesPerNs, invocations(frame, pass, exprs, extents) / kInvocationsPerNs));
   }
   return costs;
 }

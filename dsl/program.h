@@ -346,6 +346,7 @@ struct Pass {
   uint32_t kernels = kAll;  // ... `into IMAGE`: the kernel that each group got; kAll: nobody asks
   std::vector<std::string> interface_lines;  // GLSL behind the generated interface, from the compiler itself
   std::optional<Block> block;  // `block "x.glsl"`: the shader is one; compute
+  double work_share = 1;   // of the groups that all kernels of a spectrum share, as its profile has it
   FusionId fusion;         // the `fuse` it stands in
   Span span;               // of the pass name
   friend bool operator==(const Pass&, const Pass&) = default;

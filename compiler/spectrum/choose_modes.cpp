@@ -107,6 +107,15 @@ Mask close(const SpectrumProblem& problem, Mask mask) {
   return mask;
 }
 
+std::vector<double> group_shares(const SpectrumProblem& problem, const std::vector<Mask>& modes) {
+  std::vector<double> shares(modes.size(), 0);
+  double whole = 0;
+  for (const MaskWeight& row : problem.histogram) shares[mode_for(modes, row.mask)] += row.weight, whole += row.weight;
+  if (whole <= 0) return {};
+  for (double& share : shares) share /= whole;
+  return shares;
+}
+
 uint32_t mode_for(const std::vector<Mask>& modes, Mask mask) {
   for (uint32_t k = 0; k < modes.size(); ++k)
     if ((mask & ~modes[k]) == 0) return k;

@@ -45,6 +45,8 @@ ModeChoice choose_modes(const SpectrumProblem& problem);
 
 // The least set that holds `mask` and everything it needs.
 Mask close(const SpectrumProblem& problem, Mask mask);
+// The share of the histogram's weight that each of `modes` serves; empty where nothing weighs anything.
+std::vector<double> group_shares(const SpectrumProblem& problem, const std::vector<Mask>& modes);
 // The first of `modes` that serves the mask.
 uint32_t mode_for(const std::vector<Mask>& modes, Mask mask);
 

@@ -167,8 +167,10 @@ void add_features(const dsl::Spectrum& spectrum, const std::vector<Mask>& sets, 
     pass.features.push_back({spectrum.members[i].name, {}, sets[kernel] >> i & 1, {}, spectrum.members[i].span});
 }
 
-dsl::Pass kernel_pass(dsl::Program& program, const dsl::Pass& pass, const Parts& parts, const std::vector<Mask>& sets, size_t kernel) {
+dsl::Pass kernel_pass(dsl::Program& program, const dsl::Pass& pass, const Parts& parts, const KernelSets& kernels, size_t kernel) {
+  const std::vector<Mask>& sets = kernels.sets;
   dsl::Pass row = pass;
+  if (!kernels.shares.empty()) row.work_share = kernels.shares[kernel];
   row.name = kernel_name(pass.name, kernel);
   const std::set<uint32_t, std::greater<>> of_classifier = {pass.masks, pass.kernels == dsl::kAll ? pass.masks : pass.kernels};
   for (const uint32_t access : of_classifier) row.accesses.erase(row.accesses.begin() + access);
@@ -192,10 +194,10 @@ dsl::Pass kernel_pass(dsl::Program& program, const dsl::Pass& pass, const Parts&
 }
 
 // The passes that run one pass, in order.
-std::vector<dsl::Pass> expand(dsl::Program& program, dsl::Graph& graph, const dsl::Pass& pass, const std::vector<Mask>& sets) {
-  const Parts parts = add_resources(program, graph, pass, sets.size());
-  std::vector<dsl::Pass> passes = {reset_pass(pass, parts), classify_pass(program, pass, parts, sets)};
-  for (size_t k = 0; k < sets.size(); ++k) passes.push_back(kernel_pass(program, pass, parts, sets, k));
+std::vector<dsl::Pass> expand(dsl::Program& program, dsl::Graph& graph, const dsl::Pass& pass, const KernelSets& kernels) {
+  const Parts parts = add_resources(program, graph, pass, kernels.sets.size());
+  std::vector<dsl::Pass> passes = {reset_pass(pass, parts), classify_pass(program, pass, parts, kernels.sets)};
+  for (size_t k = 0; k < kernels.sets.size(); ++k) passes.push_back(kernel_pass(program, pass, parts, kernels, k));
   return passes;
 }
 
@@ -223,7 +225,7 @@ void expand_graph(dsl::Program& program, dsl::Graph& graph, const std::vector<Ke
       graph.passes.add(std::move(pass));
     } else {
       RG_CHECK(!row->sets.empty(), "a spectrum has at least the kernel of all its features");
-      for (dsl::Pass& each : expand(program, graph, pass, row->sets)) graph.passes.add(std::move(each));
+      for (dsl::Pass& each : expand(program, graph, pass, *row)) graph.passes.add(std::move(each));
     }
     last.push_back(graph.passes.size() - 1);
   }

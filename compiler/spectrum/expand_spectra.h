@@ -21,6 +21,7 @@ namespace rg::compiler {
 struct KernelSets {
   dsl::SpectrumId spectrum;
   std::vector<Mask> sets;  // in the order in which they are tried; the last one holds every feature
+  std::vector<double> shares = {};  // of all groups, by set; empty: not known, each may get all of them
 };
 
 // Replaces every pass with a spectrum. Spectra that no row of `kernels` names keep their passes.

@@ -230,7 +230,7 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
 
 std::vector<KernelSets> kernel_sets(const std::vector<SpectrumChoice>& choices) {
   std::vector<KernelSets> sets;
-  for (const SpectrumChoice& choice : choices) sets.push_back({choice.spectrum, choice.choice.modes});
+  for (const SpectrumChoice& choice : choices) sets.push_back({choice.spectrum, choice.choice.modes, group_shares(choice.problem, choice.choice.modes)});
   return sets;
 }
 

@@ -146,6 +146,15 @@ TEST(ChooseModes, OneMoreKernelNeverCosts) {
   }
 }
 
+TEST(ChooseModes, SharesAreTheWeightThatEachModeServes) {
+  SpectrumProblem problem;
+  problem.features = 2;
+  problem.histogram = {{0, 5}, {1, 2}, {2, 1}, {3, 1}, {0, 1}};
+  EXPECT_EQ(group_shares(problem, {0, 1, 3}), (std::vector<double>{0.6, 0.2, 0.2}));
+  problem.histogram = {{1, 0}};
+  EXPECT_TRUE(group_shares(problem, {3}).empty());
+}
+
 TEST(CostModel, FitsWhatItIsGiven) {
   const std::vector<std::pair<Mask, double>> samples = {{0, 2.0}, {1, 3.0}, {2, 2.5}, {3, 4.0}};
   const Additive terms = fit_terms(2, samples);
