@@ -215,7 +215,8 @@ struct PassRow {
   Index host_slot = kNone;
   WorkKind work = WorkKind::none;
   bool runs = true;
-  bool has_rendering = false, begins_rendering = false, ends_rendering = false, shares_rendering = false, classic = false, fixed_views = false, has_set = false, has_engine_set = false;
+  bool has_rendering = false, begins_rendering = false, ends_rendering = false, shares_rendering = false;
+  bool classic = false, fixed_views = false, has_set = false, has_engine_set = false;
 };
 struct GroupRow {
   const VkDependencyInfo* infos = nullptr;  // null: nothing to record, whatever the frame
