@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <memory>
 
 #include "bench/graphs.h"
@@ -21,25 +20,10 @@ namespace {
 
 void record_nothing(void*, Recording&) {}
 
-// CPU time of this process, in milliseconds: what else the machine does counts less.
-template <class Work>
-double cpu_ms(Work work) {
-  const std::clock_t begin = std::clock();
-  work();
-  return static_cast<double>(std::clock() - begin) * 1000 / CLOCKS_PER_SEC;
-}
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
 }
-template <class Work>
-double median_cpu_ms(int runs, Work work) {
-  work();
-  std::vector<double> times;
-  for (int run = 0; run < runs; ++run) times.push_back(cpu_ms(work));
-  return median(std::move(times));
-}
-
 // Everything execute() wants, for a graph whose passes the host records.
 struct Inputs {
   std::vector<RecordFunction> callbacks;
@@ -229,6 +213,13 @@ class Timeline {
     semaphore_ = UniqueSemaphore(device.vk(), device.handle(), semaphore);
   }
   VkSemaphore handle() const { return semaphore_.get(); }
+  // For the frame before: a command buffer in use is not reset.
+  void wait() {
+    const VkSemaphore semaphore = handle();
+    VkSemaphoreWaitInfo wait{};
+    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO, wait.semaphoreCount = 1, wait.pSemaphores = &semaphore, wait.pValues = &value_;
+    device_.vk().WaitSemaphores(device_.handle(), &wait, UINT64_MAX);
+  }
   uint64_t next() { return ++value_; }
   void reach() {
     VkSemaphoreSignalInfo signal{};
@@ -288,12 +279,13 @@ void add_recording(const std::string& graph_name, const Plan& plan, Rows& rows) 
   Timeline done(*real);
   constexpr int kFrames = 50;
   std::vector<double> ratios, times;
-  for (int round = 0; round < 15; ++round) {  // both in every round: a busy machine slows them alike
+  for (int round = 0; round < 61; ++round) {  // both in every round: a busy machine slows them alike
     const double runtime = cpu_ms([&] {
       for (int i = 0; i < kFrames; ++i) good &= measured.record();
     });
     const double hand = cpu_ms([&] {
       for (int i = 0; i < kFrames; ++i) {
+        done.wait();
         record_into(*real, by_hand, [&] {
           for (const auto& call : calls) call(by_hand.commands);
         });

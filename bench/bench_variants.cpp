@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "bench/rows.h"
 #include "compiler/compile.h"
@@ -78,7 +79,7 @@ double command_line_ms(const Uber& uber) {
                              "); do glslangValidator -V --target-env vulkan1.3 --target-env spirv1.5 " + base + ".comp -o " + base +
                              ".spv >/dev/null && spirv-opt -O " + base + ".spv -o " + base + ".opt.spv || exit 1; done";
   bool good = true;
-  const double ms = median_ms(1, [&] { good = std::system(script.c_str()) == 0; });
+  const double ms = cpu_ms([&] { good = std::system(script.c_str()) == 0; });
   fs::remove_all(folder);
   return good ? ms / kSampled : 0;
 }
@@ -98,15 +99,16 @@ Rows variant_rows() {
   ShaderSources sources([](const std::string&) { return std::nullopt; });
   uint64_t plain_instructions = 0, our_instructions = 0;
   plain_variant(*uber, 0, sources);  // glslang's tables are built once a process
-  const double libraries = median_ms(1,
-                                     [&] {
-                                       plain_instructions = 0;
-                                       for (size_t i = 0; i < kSampled; ++i)
-                                         plain_instructions += find_statistics(plain_variant(*uber, i * kVariants / kSampled, sources)).instructions;
-                                     }) /
+  std::vector<Words> plain(kSampled);
+  const double libraries = median_cpu_ms(3,
+                                         [&] {
+                                           for (size_t i = 0; i < kSampled; ++i) plain[i] = plain_variant(*uber, i * kVariants / kSampled, sources);
+                                         }) /
                            kSampled;
+  for (const Words& words : plain) plain_instructions += find_statistics(words).instructions;
   ShaderBundle bundle;
-  const double one = median_ms(3, [&] { bundle = build_all(*uber, 1); }) / kVariants;
+  const double one = median_cpu_ms(3, [&] { bundle = build_all(*uber, 1); }) / kVariants;
+  const double one_wall = median_ms(3, [&] { bundle = build_all(*uber, 1); }) / kVariants;
   const double all = median_ms(3, [&] { bundle = build_all(*uber, 0); }) / kVariants;
   for (const PassShaders& pass : bundle.passes)
     for (size_t i = 0; i < kSampled && !pass.variants.empty() && pass.variants[0].size() == kVariants; ++i)
@@ -114,36 +116,63 @@ Rows variant_rows() {
   const double tools = command_line_ms(*uber);
   Rows rows = {
       {"variants/uber/one_core", one, "ms", libraries, "glslang and -O in process, each variant"},
-      {"variants/uber/all_cores", all, "ms", one, "one core"},
-      {"variants/uber/instructions", static_cast<double>(our_instructions), "count", static_cast<double>(plain_instructions), "-O of each variant"},
-      {"variants/uber/duplicates", static_cast<double>(bundle.counts[0].equal) / kVariants * 100, "%", {}, ""}};
+      {"variants/uber/all_cores", all, "ms", one_wall, "one core, both by the clock"},
+      {"variants/uber/instructions", static_cast<double>(our_instructions), "count", static_cast<double>(plain_instructions), "-O of each variant"}};
   if (tools > 0) rows.push_back({"variants/uber/against_tools", one, "ms", tools, "glslangValidator and spirv-opt -O, a process each"});
   return rows;
 }
 
-// Where the time of a variant goes, one core, without validation.
+// Each step of all variants by itself, on one core.
+struct Steps {
+  double parse = 0, optimise = 0, specialise = 0, deduplicate = 0, finish = 0, validate = 0;  // milliseconds
+  size_t distinct = 0;
+  double total() const { return parse + optimise + specialise + deduplicate + finish + validate; }
+};
+Steps time_steps(const Uber& uber) {
+  ShaderSources sources([](const std::string&) { return std::nullopt; });
+  const std::string prelude = text(make_prelude(uber.program, uber.program.graphs.rows[0], shade_pass(uber), dsl::stage_compute));
+  Steps steps;
+  Words written, generic;
+  steps.parse = median_cpu_ms(3, [&] { written = compile_glsl(dsl::stage_compute, prelude, "uber.comp", uber.text, sources).words; });
+  steps.optimise = median_cpu_ms(3, [&] { generic = optimise_spirv(written); });
+  std::vector<Words> pruned(kVariants), finished;
+  steps.specialise = cpu_ms([&] {
+    for (size_t v = 0; v < kVariants; ++v) {
+      ConstantValues values;
+      for (uint32_t i = 0; i < 8; ++i) values.emplace_back(kFirstFeatureConstant + i, v >> i & 1);
+      pruned[v] = prune_spirv(set_constants(generic, values));
+    }
+  });
+  std::map<Words, size_t> distinct;
+  steps.deduplicate = cpu_ms([&] {
+    for (size_t v = 0; v < kVariants; ++v) distinct.try_emplace(pruned[v], v);
+  });
+  steps.finish = cpu_ms([&] {
+    for (const auto& [words, first] : distinct) finished.push_back(finish_spirv(words));
+  });
+  steps.validate = cpu_ms([&] {
+    for (const Words& words : finished) static_cast<void>(validate_spirv(words));
+  });
+  steps.distinct = distinct.size();
+  return steps;
+}
+
+// Where the time goes, and the share of variants that are found to be others.
 Rows share_rows() {
   auto uber = load_uber();
   if (!uber) return {};
-  ShaderSources sources([](const std::string&) { return std::nullopt; });
-  const std::string prelude = text(make_prelude(uber->program, uber->program.graphs.rows[0], shade_pass(*uber), dsl::stage_compute));
-  Words written, generic, pruned, finished;
-  const double parse = median_ms(3, [&] { written = compile_glsl(dsl::stage_compute, prelude, "uber.comp", uber->text, sources).words; });
-  const double optimise = median_ms(3, [&] { generic = optimise_spirv(written); });
-  ConstantValues values;
-  for (uint32_t i = 0; i < 8; ++i) values.emplace_back(kFirstFeatureConstant + i, i & 1);
-  const double prune = median_ms(9, [&] { pruned = prune_spirv(set_constants(generic, values)); });
-  const double finish = median_ms(9, [&] { finished = finish_spirv(pruned); });
-  const double validate = median_ms(9, [&] { (void)validate_spirv(finished); });
-  return {{"variants/uber/parse_once", parse, "ms", {}, ""},
-          {"variants/uber/optimise_once", optimise, "ms", {}, ""},
-          {"variants/uber/specialise", prune, "ms", {}, ""},
-          {"variants/uber/finish", finish, "ms", {}, ""},
-          {"variants/uber/validate", validate, "ms", {}, ""}};
+  const Steps steps = time_steps(*uber);
+  const double hundredth = steps.total() / 100;
+  Rows rows = {{"variants/uber/total", steps.total(), "ms", {}, "all steps of all variants, one core"}};
+  const std::pair<const char*, double> shares[] = {{"parse_once", steps.parse},          {"optimise_once", steps.optimise}, {"specialise", steps.specialise},
+                                                   {"deduplicate", steps.deduplicate}, {"finish", steps.finish},          {"validate", steps.validate}};
+  for (const auto& [name, ms] : shares) rows.push_back({std::string("variants/uber/share/") + name, ms / hundredth, "%", {}, ""});
+  rows.push_back({"variants/uber/duplicates", 100.0 * static_cast<double>(kVariants - steps.distinct) / kVariants, "%", {}, "variants equal to another"});
+  return rows;
 }
 
 double build_frame_ms(const std::string& cache, const dsl::ReadSource& read) {
-  return median_ms(5, [&] {
+  return median_cpu_ms(5, [&] {
     dsl::Diagnostics diagnostics;
     CompileOptions options;
     options.cache_folder = cache;

@@ -35,12 +35,14 @@ struct Keeping<Tag, Result (*)(Arguments...)> {
 
 #define RG_DEVICE(name) \
   struct Tag##name {};
+#define RG_DEVICE_OPTIONAL RG_DEVICE
 #include "runtime/functions.def"
 
 PFN_vkVoidFunction wrap(const char* name, PFN_vkVoidFunction function) {
   using Wrap = PFN_vkVoidFunction (*)(PFN_vkVoidFunction);
   static const std::map<std::string, Wrap> table = {
 #define RG_DEVICE(name) {"vk" #name, Keeping<Tag##name, PFN_vk##name>::wrap},
+#define RG_DEVICE_OPTIONAL RG_DEVICE  // labels among them
 #include "runtime/functions.def"
   };
   const auto row = table.find(name);

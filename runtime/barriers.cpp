@@ -83,6 +83,9 @@ uint32_t group_period(const Context& context, const Sized& sized, const BarrierG
   return period;
 }
 
+constexpr Accesses kWrites = access::shader_write | access::color_attachment_write | access::depth_stencil_attachment_write | access::transfer_write |
+                             access::host_write | access::memory_write | access::shader_storage_write;
+
 // Where a transfer is none, its acquire relies on a wait for the release's queue. The validation layer loses the writes before such a wait when the next
 // thing is a transition: while it watches, the acquire names them once more.
 template <class Barriers, class Same>
@@ -92,8 +95,20 @@ void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelin
     stages |= other.src_stages, accesses |= other.src_accesses;
   }
 }
+// The same where an image that queues share changes its layout behind a wait: the writes of all passes that the wait may stand for.
+Stages stages_of(const DeviceQueue& queue) {
+  if ((queue.flags & VK_QUEUE_GRAPHICS_BIT) != 0) return ~Stages{0};
+  return stage::copy | stage::clear | ((queue.flags & VK_QUEUE_COMPUTE_BIT) != 0 ? stage::compute_shader : stage::none);
+}
+void name_shared_writes(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
+  if (!context.plan.resources[in.image.resource].concurrent || in.src_accesses != 0 || in.old_layout == Layout::undefined) return;
+  const Stages possible = stages_of(queue_of(context, context.queues.of_group[group]));
+  for (const Access& access : context.plan.accesses)
+    if (access.ref == in.image && access.writes && (access.stages & ~possible) == 0) out.srcStageMask |= access.stages, out.srcAccessMask |= access.accesses & kWrites;
+}
 void repeat_release(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
-  if (!context.device.validating || in.src_queue == kNone) return;
+  if (!context.device.validating) return;
+  if (in.src_queue == kNone) return name_shared_writes(context, group, in, out);
   const bool releases = context.queues.of_group[group] == in.src_queue, transfers = changes_family(context, in.src_queue, in.dst_queue);
   if (releases && transfers && out.dstStageMask == 0) out.dstStageMask = out.srcStageMask;  // it loses a release that nothing comes after
   if (releases || transfers) return;

@@ -94,13 +94,15 @@ void take_turn(GraphInstance::State& state) {
   state.has_turn = true;
 }
 
-// Everything before recording, the wait for the slot included.
-Status begin_frame(GraphInstance::State& state, FrameInputs& inputs, const FrameSlot& slot) {
+// Everything before recording, the wait for the slot included. `whose`: who records into which command buffers.
+enum class Commands : uint8_t { ours, engines };
+Status begin_frame(GraphInstance::State& state, FrameInputs& inputs, const FrameSlot& slot, Commands whose) {
   RG_TRY(check_inputs(state, inputs));
   take_turn(state);
   RG_TRY(wait_for(state, slot.done));
   if (!state.retired.empty()) release_retired(state);
-  RG_TRY(reset_slot(state, slot));
+  if (whose == Commands::ours) RG_TRY(reset_commands(state.context, slot));
+  reset_slot_queries(state.context, slot);
   RG_TRY(take_inputs(state, inputs));
   return state.context.device.classic_render_passes ? update_framebuffers(state.context, *state.sized, state.frame) : Status(Done{});
 }
@@ -122,7 +124,7 @@ void end_frame(GraphInstance::State& state, FrameSlot& slot) {
 Status execute_frame(GraphInstance::State& state, const FrameInputs& given) {
   FrameInputs inputs = given;
   FrameSlot& slot = state.slots[state.frame % state.slots.size()];
-  RG_TRY(begin_frame(state, inputs, slot));
+  RG_TRY(begin_frame(state, inputs, slot, Commands::ours));
   RG_TRY(record_frame(state, inputs, slot));
   slot.done = {};  // waited for: if the submit fails there is nothing to wait for
   RG_TRY(state.context.submit_per_pass ? run_one_by_one(state, slot) : submit_frame(state, inputs, slot));
@@ -143,10 +145,15 @@ class OwnRecorder {
 
   void batch(const Batch& batch) {
     if (batch.wait_count != 0) wait_for_all(recording_);
-    for (const Step& step : state_.context.plan.steps.subspan(batch.first_step, batch.step_count)) {
-      record_steps(recording_, {&step, 1});
-      if (step.kind == StepKind::pass && part_ + 1 < parts_.size() && parts_[part_].last_pass == step.index) next();
+    const std::span<const Step> steps = state_.context.plan.steps.subspan(batch.first_step, batch.step_count);
+    size_t begin = 0;  // of the part
+    for (size_t i = 0; i < steps.size() && part_ + 1 < parts_.size(); ++i) {
+      if (steps[i].kind != StepKind::pass || parts_[part_].last_pass != steps[i].index) continue;
+      record_steps(recording_, steps.subspan(begin, i + 1 - begin));
+      begin = i + 1;
+      next();
     }
+    record_steps(recording_, steps.subspan(begin));
   }
   // False: a pass that ends a part never came.
   bool finish() {
@@ -175,7 +182,7 @@ class OwnRecorder {
 Status record_own_frame(GraphInstance::State& state, const FrameInputs& given, std::span<const OwnCommands> parts, const FrameDone& done) {
   FrameInputs inputs = given;
   FrameSlot& slot = state.slots[state.frame % state.slots.size()];
-  RG_TRY(begin_frame(state, inputs, slot));
+  RG_TRY(begin_frame(state, inputs, slot, Commands::engines));
   RG_TRY(wait_for_entry(state));  // a submit of the engine's waits for nothing of ours
   OwnRecorder recorder(state, inputs, slot, parts);
   for (const Batch& batch : state.context.plan.batches) recorder.batch(batch);

@@ -11,6 +11,7 @@
 #include "runtime/pipelines.h"
 #include "runtime/plan_check.h"
 #include "runtime/queues.h"
+#include "runtime/record_rows.h"
 #include "runtime/resources.h"
 #include "runtime/turns.h"
 #include "runtime/samplers.h"
@@ -100,6 +101,7 @@ Result<std::unique_ptr<Sized>> create_sized(const Context& context, const Object
   // Beyond this point offsets are fixed: hand-offs of shared memory follow from them.
   create_barriers(context, *sized);
   fill_rows(context, objects, *sized);
+  fill_step_rows(context, objects, *sized);
   return sized;
 }
 
@@ -363,7 +365,7 @@ Status GraphInstance::set_active(std::span<const int64_t> extents) {
     if (extents[i] > state_->sized->extents[i])
       return Error{ErrorCode::invalid_argument, "active extent " + std::to_string(extents[i]) + " is larger than the one that memory was placed for: " +
                                                     std::to_string(state_->sized->extents[i]) + "; resize first"};
-  activate(state_->context, *state_->sized, extents);
+  activate(state_->context, state_->objects, *state_->sized, extents);
   return Done{};
 }
 

@@ -45,7 +45,8 @@ struct RenderingPart {
 };
 
 struct PassObjects {
-  std::string name, module;    // zero-terminated, for labels
+  std::string name, module;
+  VkDebugUtilsLabelEXT label{}, module_label{};  // of these names
   uint32_t module_number = 0;  // equal for equal modules; 0: none
   std::vector<VkFormat> color_formats;
   UniqueSetLayout set_layout;  // of set 1; null: the empty one
@@ -212,15 +213,32 @@ struct PassRow {
   uint64_t guard = 0;
   VkPipeline pipeline = VK_NULL_HANDLE;
   Index host_slot = kNone;
-  uint32_t module = 0;
   WorkKind work = WorkKind::none;
   bool runs = true;
-  bool has_rendering = false, ends_rendering = false, shares_rendering = false, classic = false, fixed_views = false, has_set = false, has_engine_set = false;
+  bool has_rendering = false, begins_rendering = false, ends_rendering = false, shares_rendering = false;
+  bool classic = false, fixed_views = false, has_set = false, has_engine_set = false;
 };
 struct GroupRow {
   const VkDependencyInfo* infos = nullptr;  // null: nothing to record, whatever the frame
   uint32_t period = 1;
   Index poison = kNone;
+};
+
+// What a frame that nobody watches records next, whole and side by side: the barriers of a group and the pass right behind them. See record_rows.h.
+struct FrameRecording;
+struct StepRow;
+using RecordRow = void (*)(FrameRecording& recording, const StepRow& row);
+struct StepRow {
+  RecordRow record = nullptr;               // made for the shape of the row
+  const VkDependencyInfo* infos = nullptr;  // recorded first, by frame mod period; null: no barriers
+  const PassObjects* labels = nullptr;      // opened around `record`; null: none, or it opens them itself
+  uint64_t guard = 0;
+  uint32_t period = 1;
+  Index host_slot = kNone, group = kNone, pass = kNone;  // kNone: there is none
+  const PassInfo* info = nullptr;
+  const VkRenderingInfo* begun = nullptr;  // of the pass, or of all passes of its rendering
+  const VkViewport* viewport = nullptr;
+  const VkRect2D* area = nullptr;
 };
 
 // Host-written memory: one section a frame in flight with the parameter blocks, then the updates.
@@ -284,6 +302,8 @@ struct Sized {
   std::vector<GroupRow> group_rows;
   std::vector<PassTable> passes;
   std::vector<PassRow> rows;
+  std::vector<StepRow> step_rows;
+  std::vector<Index> row_of_step;     // by Plan::steps, and the end: a group in front of a pass has the pass's row
   std::vector<TransferRef> updates;   // transfers whose bytes the host brings
   std::vector<Index> imported_sets;   // passes whose sets hold imports
   std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps, laid end to end

@@ -85,12 +85,11 @@ void fill_rows(const Context& context, const Objects& objects, Sized& sized) {
     row.guard = pass.guard;
     row.pipeline = objects.passes[i].pipeline.get();
     row.host_slot = pass.host_slot;
-    row.module = objects.passes[i].module_number;
     row.work = pass.work.kind;
     row.runs = table.runs;
     const RenderingPart part = objects.passes[i].part;
     row.has_rendering = pass.rendering != kNone;
-    row.ends_rendering = part.last, row.shares_rendering = row.has_rendering && !(part.first && part.last);
+    row.begins_rendering = part.first, row.ends_rendering = part.last, row.shares_rendering = row.has_rendering && !(part.first && part.last);
     row.classic = table.info.render_pass != VK_NULL_HANDLE;
     row.fixed_views = table.rendering.fixed && table.whole_rendering.fixed;
     row.has_set = table.set.period != 0;

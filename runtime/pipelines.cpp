@@ -327,6 +327,9 @@ Status create_pass_objects(const Context& context, Objects& objects) {
   for (size_t i = 0; i < context.plan.passes.size(); ++i) {
     objects.passes[i].part = parts[i];
     RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], shaders, objects.passes[i]));
+    PassObjects& pass = objects.passes[i];
+    pass.label.sType = pass.module_label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+    pass.label.pLabelName = pass.name.c_str(), pass.module_label.pLabelName = pass.module.c_str();
   }
   return Done{};
 }

@@ -375,6 +375,7 @@ struct Feature {  // that shaders are chosen by, or passes run by
   std::string_view name = {};
   uint32_t values = 2, initial = 0;
   Capability capability = Capability::none;  // 1 where the device has it, whatever the frame asks for
+  uint32_t layout = 0;                       // equal where the values have the same names in the same order; 0: off and on
 };
 struct FeatureCondition {  // a condition that holds in frames in which the feature has one of the values
   Index condition = 0, feature = 0;

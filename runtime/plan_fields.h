@@ -94,7 +94,7 @@ RG_PLAN_ROW(Step, kind, index);
 RG_PLAN_ROW(Wait, queue, value, stages, frames_ago);
 RG_PLAN_ROW(Signal, value, stages);
 RG_PLAN_ROW(Batch, queue, first_step, step_count, first_wait, wait_count, first_signal, signal_count);
-RG_PLAN_ROW(Feature, name, values, initial, capability);
+RG_PLAN_ROW(Feature, name, values, initial, capability, layout);
 RG_PLAN_ROW(FeatureCondition, condition, feature, values);
 RG_PLAN_ROW(Culled, pass, reason);
 RG_PLAN_ROW(Plan, version, name, variant, variant_count, variant_name, exprs, extents, resources, queues, batches, steps, waits, signals, groups,

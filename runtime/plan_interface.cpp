@@ -122,6 +122,8 @@ Status check_interface(const Plan& built, const Plan& loaded) {
   compare_updates(c);
   compare_conditions(c);
   c.rows(built.features, loaded.features, "feature", [](const Feature& a, const Feature& b) { return a.values == b.values; });
+  for (size_t i = 0; i < loaded.features.size() && i < built.features.size(); ++i)
+    c.that(built.features[i].layout == loaded.features[i].layout, "feature", loaded.features[i].name, "has values of other names, or in another order");
   c.rows(built.engine_sets, loaded.engine_sets, "engine set", [](const EngineSet& a, const EngineSet& b) { return a.role == b.role; });
   compare_callbacks(c);
   return c.status();

@@ -3,6 +3,7 @@
 #include "runtime/barriers.h"
 #include "runtime/inputs.h"
 #include "runtime/queues.h"
+#include "runtime/record_rows.h"
 #include "runtime/render_pass.h"
 #include "runtime/resolve.h"
 #include "runtime/transfers.h"
@@ -10,27 +11,6 @@
 namespace rg {
 
 namespace {
-
-void begin_label(const FrameRecording& r, const std::string& name) {
-  VkDebugUtilsLabelEXT label{};
-  label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
-  label.pLabelName = name.c_str();
-  r.vk.CmdBeginDebugUtilsLabelEXT(r.commands, &label);
-}
-
-void end_label(const FrameRecording& r) {
-  if (r.vk.CmdEndDebugUtilsLabelEXT != nullptr) r.vk.CmdEndDebugUtilsLabelEXT(r.commands);
-}
-
-void open_labels(FrameRecording& r, Index index, const PassRow& row) {
-  const PassObjects& pass = r.state.objects.passes[index];
-  if (r.module != row.module) {
-    close_module(r);
-    if (row.module != 0) begin_label(r, pass.module);
-    r.module = row.module;
-  }
-  begin_label(r, pass.name);
-}
 
 void begin_statistics(const FrameRecording& r, Index pass) {
   if (r.statistics != VK_NULL_HANDLE) r.vk.CmdBeginQuery(r.commands, r.statistics, pass, 0);
@@ -154,10 +134,43 @@ void bind_pipeline(const FrameRecording& r, Index index, const PassRow& row, con
   r.vk.CmdBindPipeline(r.commands, objects.bind_point, pipeline);
 }
 
-void record_body(const FrameRecording& r, Index index, const PassRow& row) {
+void record_covered(const FrameRecording& r, Index index, const PassRow& row) {
+  if (row.has_rendering) cover_target(r, r.state.sized->passes[index]);
+  record_body(r, index);
+}
+
+// A pass with a rendering of its own, or with none. A query that begins outside a rendering must not end inside.
+void record_alone(FrameRecording& r, Index index, const PassRow& row, bool runs) {
+  begin_statistics(r, index);
+  if (runs && row.has_rendering) begin_attachments(r, row, r.state.sized->passes[index].rendering);
+  if (runs) record_covered(r, index, row);
+  if (runs && row.has_rendering) end_attachments(r, row);
+  end_statistics(r, index);
+}
+
+// One of several in a rendering: the first begins it, the last ends it, whether that runs or not. None runs where the first does not.
+void record_shared(FrameRecording& r, Index index, const PassRow& row, bool runs) {
+  if (runs && !r.in_rendering) begin_attachments(r, row, r.state.sized->passes[index].whole_rendering), r.in_rendering = true;
+  begin_statistics(r, index);
+  if (runs) record_covered(r, index, row);
+  end_statistics(r, index);
+  if (r.in_rendering && row.ends_rendering) end_attachments(r, row);
+}
+
+// Whether anything but the frame and its labels is recorded, or not in the usual form.
+bool is_watched(const FrameRecording& r) {
+  const GraphInstance::State& state = r.state;
+  if (r.queries != VK_NULL_HANDLE || r.statistics != VK_NULL_HANDLE) return true;
+  if (state.context.serial || state.context.submit_per_pass || state.context.device.classic_render_passes) return true;
+  return std::any_of(state.dumps.begin(), state.dumps.end(), [](const DumpRequest& dump) { return !dump.recorded; });
+}
+
+}  // namespace
+
+void record_body(const FrameRecording& r, Index index) {
+  const PassRow& row = r.state.sized->rows[index];
   PassTable& table = r.state.sized->passes[index];
   const PassObjects& objects = r.state.objects.passes[index];
-  if (row.has_rendering) cover_target(r, table);
   if (row.pipeline != VK_NULL_HANDLE) bind_pipeline(r, index, row, objects, table);
   if (row.has_engine_set) bind_engine_set(r, r.state.context.plan.passes[index], objects);
   const VkDescriptorSet set = row.has_set ? bind_pass_set(r, objects, table) : VkDescriptorSet(VK_NULL_HANDLE);
@@ -167,28 +180,12 @@ void record_body(const FrameRecording& r, Index index, const PassRow& row) {
     record_work(r, r.state.context.plan.passes[index], table);
 }
 
-// A pass with a rendering of its own, or with none. A query that begins outside a rendering must not end inside.
-void record_alone(FrameRecording& r, Index index, const PassRow& row, bool runs) {
-  begin_statistics(r, index);
-  if (runs && row.has_rendering) begin_attachments(r, row, r.state.sized->passes[index].rendering);
-  if (runs) record_body(r, index, row);
-  if (runs && row.has_rendering) end_attachments(r, row);
-  end_statistics(r, index);
-}
-
-// One of several in a rendering: the first begins it, the last ends it, whether that runs or not. None runs where the first does not.
-void record_shared(FrameRecording& r, Index index, const PassRow& row, bool runs) {
-  if (runs && !r.in_rendering) begin_attachments(r, row, r.state.sized->passes[index].whole_rendering), r.in_rendering = true;
-  begin_statistics(r, index);
-  if (runs) record_body(r, index, row);
-  end_statistics(r, index);
-  if (r.in_rendering && row.ends_rendering) end_attachments(r, row);
-}
-
 void record_pass(FrameRecording& r, Index index) {
   const PassRow& row = r.state.sized->rows[index];
   const bool labels = r.vk.CmdBeginDebugUtilsLabelEXT != nullptr;
-  if (labels) open_labels(r, index, row);
+  const PassObjects& objects = r.state.objects.passes[index];
+  if (labels && r.module != objects.module_number) change_module(r, objects);
+  if (labels) r.vk.CmdBeginDebugUtilsLabelEXT(r.commands, &objects.label);
   write_timestamp(r, VK_PIPELINE_STAGE_2_NONE, 2 * index);
   const bool runs = row.runs && (row.guard & ~r.inputs.conditions) == 0;
   const bool alone = !row.shares_rendering || stands_alone(r, index);
@@ -198,11 +195,9 @@ void record_pass(FrameRecording& r, Index index) {
     record_alone(r, index, row, runs);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
   if (!r.state.dumps.empty()) record_dumps(r, index);
-  if (labels) end_label(r);
+  if (labels) r.vk.CmdEndDebugUtilsLabelEXT(r.commands);
   if (r.state.context.serial || (alone && row.shares_rendering && !row.ends_rendering)) wait_for_all(r);
 }
-
-}  // namespace
 
 void wait_for_all(const FrameRecording& r) {
   const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -236,22 +231,33 @@ void reset_queries(const FrameRecording& r) {
   if (r.statistics != VK_NULL_HANDLE) r.vk.CmdResetQueryPool(r.commands, r.statistics, 0, passes);
 }
 
+void change_module(FrameRecording& r, const PassObjects& pass) {
+  close_module(r);
+  if (pass.module_number != 0) r.vk.CmdBeginDebugUtilsLabelEXT(r.commands, &pass.module_label);
+  r.module = pass.module_number;
+}
+
 void close_module(FrameRecording& r) {
-  if (r.module != 0) end_label(r);
+  if (r.module != 0) r.vk.CmdEndDebugUtilsLabelEXT(r.commands);
   r.module = 0;
 }
 
-void record_steps(FrameRecording& r, std::span<const Step> steps) {
+void record_group(const FrameRecording& r, Index group) {
   const Sized& sized = *r.state.sized;
-  for (const Step& step : steps) {
-    if (step.kind == StepKind::pass) {
-      record_pass(r, step.index);
-      continue;
-    }
-    const GroupRow& row = sized.group_rows[step.index];
-    if (row.poison != kNone) record_poison(r.state.context, sized, sized.poisons[row.poison], r.commands);
-    if (row.infos != nullptr) r.vk.CmdPipelineBarrier2(r.commands, row.infos + row_of(r.frame, row.period));
+  const GroupRow& row = sized.group_rows[group];
+  if (row.poison != kNone) record_poison(r.state.context, sized, sized.poisons[row.poison], r.commands);
+  if (row.infos != nullptr) r.vk.CmdPipelineBarrier2(r.commands, row.infos + row_of(r.frame, row.period));
+}
+
+void record_steps(FrameRecording& r, std::span<const Step> steps) {
+  if (is_watched(r)) {
+    for (const Step& step : steps) step.kind == StepKind::pass ? record_pass(r, step.index) : record_group(r, step.index);
+    return;
   }
+  const Sized& sized = *r.state.sized;
+  const auto first = static_cast<size_t>(steps.data() - r.state.context.plan.steps.data());
+  const Index begin = sized.row_of_step[first], end = sized.row_of_step[first + steps.size()];
+  record_rows(r, std::span(sized.step_rows).subspan(begin, end - begin));
 }
 
 }  // namespace rg

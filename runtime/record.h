@@ -25,6 +25,16 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
 void reset_queries(const FrameRecording& recording);
 
 void record_steps(FrameRecording& recording, std::span<const Step> steps);
+
+// Closes the label of the module before and opens the pass's. Only where the device has labels.
+void change_module(FrameRecording& recording, const PassObjects& pass);
+
+// Parts of a step, with whatever instruments there are.
+void record_group(const FrameRecording& recording, Index group);
+void record_pass(FrameRecording& recording, Index pass);
+// Pipeline, sets and work of a pass that runs, in the rendering that has begun.
+void record_body(const FrameRecording& recording, Index pass);
+
 void wait_for_all(const FrameRecording& recording);  // a barrier from everything to everything
 
 void close_module(FrameRecording& recording);  // at the end of every command buffer

@@ -224,15 +224,17 @@ Status create_frames(GraphInstance::State& state) {
   return Done{};
 }
 
-Status reset_slot(const GraphInstance::State& state, const FrameSlot& slot) {
-  const Context& context = state.context;
+Status reset_commands(const Context& context, const FrameSlot& slot) {
   for (const CommandPool& pool : slot.pools)
     RG_TRY(check(context.vk().ResetCommandPool(context.device.device, pool.pool.get(), 0), "vkResetCommandPool", context.plan.name));
-  if (!context.device.host_query_reset) return Done{};
+  return Done{};
+}
+
+void reset_slot_queries(const Context& context, const FrameSlot& slot) {
+  if (!context.device.host_query_reset) return;
   const auto passes = static_cast<uint32_t>(context.plan.passes.size());
   if (slot.queries) context.vk().ResetQueryPool(context.device.device, slot.queries.get(), 0, 2 * passes);
   if (slot.statistics) context.vk().ResetQueryPool(context.device.device, slot.statistics.get(), 0, passes);
-  return Done{};
 }
 
 }  // namespace rg

@@ -7,7 +7,8 @@ namespace rg {
 
 Status create_frames(GraphInstance::State& state);
 
-// Makes the command buffers of a slot whose last frame is done ready to be recorded again.
-Status reset_slot(const GraphInstance::State& state, const FrameSlot& slot);
+// Of a slot whose last frame is done: its command buffers can be recorded again, its queries written.
+Status reset_commands(const Context& context, const FrameSlot& slot);
+void reset_slot_queries(const Context& context, const FrameSlot& slot);
 
 }  // namespace rg

@@ -293,7 +293,11 @@ Status submit_prologue(GraphInstance::State& state, const Sized& sized) {
     static_cast<void>(wait_for(state, state.prologue.done));
     return submitted.error();
   }
-  if (!state.context.queues.several) return Done{};
+  if (!state.context.queues.several) {
+    // A plan of several queues leaves it to waits that its first passes see the prologue; on one VkQueue there are none.
+    state.entry_barrier |= state.context.plan.queues.size() > 1;
+    return Done{};
+  }
   // Queues that nothing of the prologue's waits concerns wait for it, and with it for what it has waited for.
   state.entry_waits.assign(1, semaphore_info((*state.timelines)[0].get(), state.submitted.values[0], kAllCommands));
   return Done{};

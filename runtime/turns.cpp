@@ -5,6 +5,7 @@
 
 #include "runtime/errors.h"
 #include "runtime/pass_tables.h"
+#include "runtime/record_rows.h"
 #include "runtime/resolve.h"
 #include "runtime/resources.h"
 #include "runtime/submit.h"
@@ -89,10 +90,11 @@ void at_active_sizes(const Context& context, Sized& sized, std::span<const int64
 
 }  // namespace
 
-void activate(const Context& context, Sized& sized, std::span<const int64_t> extents) {
+void activate(const Context& context, const Objects& objects, Sized& sized, std::span<const int64_t> extents) {
   sized.active_extents.resize(extents.size());
   at_active_sizes(context, sized, extents, [&] {
     for (size_t p = 0; p < sized.passes.size(); ++p) resize_pass(context, sized, static_cast<Index>(p));
+    choose_step_rows(objects, sized);
   });
 }
 

@@ -9,6 +9,6 @@ namespace rg {
 Status follow(GraphInstance::State& state, const GraphInstance::State& other);
 
 // GraphInstance::set_active, with extents that were checked.
-void activate(const Context& context, Sized& sized, std::span<const int64_t> extents);
+void activate(const Context& context, const Objects& objects, Sized& sized, std::span<const int64_t> extents);
 
 }  // namespace rg

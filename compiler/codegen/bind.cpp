@@ -247,7 +247,7 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
   const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
   if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
   const Capability capability = plan_capability(feature.capability);
-  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability});
+  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability, layout_of_values(feature)});
   return static_cast<Index>(b.plan.features.size() - 1);
 }
 

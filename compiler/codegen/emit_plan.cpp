@@ -322,7 +322,7 @@ std::string PlanEmitter::run() {
   table("Feature", "kFeatures", plan_.features, [](const Feature& f, size_t) {
     Row row = Row().string("name", f.name).number("values", f.values, 2).number("initial", f.initial);
     if (f.capability != Capability::none) row.field("capability", capability_text(f.capability));
-    return row;
+    return row.number("layout", f.layout);
   });
   table("FeatureCondition", "kFeatureConditions", plan_.feature_conditions, [](const FeatureCondition& f, size_t) {
     return Row().number("condition", f.condition).number("feature", f.feature).number("values", f.values);

@@ -38,10 +38,16 @@ std::string shader_path(std::string_view name) {
 
 std::string words_text(std::span<const uint32_t> words) {
   constexpr size_t kPerLine = 12;
+  constexpr char kDigits[] = "0123456789abcdef";
   std::string text;
+  text.reserve(words.size() * 12 + words.size() / kPerLine * 4 + 8);
   for (size_t i = 0; i < words.size(); i += kPerLine) {
     text += "   ";
-    for (size_t j = i; j < std::min(i + kPerLine, words.size()); ++j) text += fmt::format(" 0x{:08x},", words[j]);
+    for (size_t j = i; j < std::min(i + kPerLine, words.size()); ++j) {  // most of what a build writes: no formatter
+      char word[] = " 0x00000000,";
+      for (size_t digit = 0; digit < 8; ++digit) word[10 - digit] = kDigits[words[j] >> 4 * digit & 15];
+      text.append(word, sizeof word - 1);
+    }
     text += "\n";
   }
   return text;

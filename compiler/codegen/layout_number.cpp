@@ -46,4 +46,11 @@ uint32_t layout_of_elements(const dsl::Program& program, const dsl::Resource& re
   return resource.kind == dsl::ResourceKind::buffer ? number(Layouts(program).text(resource.element)) : 0;
 }
 
+uint32_t layout_of_values(const dsl::Feature& feature) {
+  if (feature.values == std::vector<std::string>{"off", "on"}) return 0;
+  std::string all;
+  for (const std::string& value : feature.values) all += value + " ";
+  return number(all);
+}
+
 }  // namespace rg::compiler

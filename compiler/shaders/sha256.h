@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "compiler/shaders/sha256_blocks.h"
+
 namespace rg::compiler {
 
 struct Digest {
@@ -24,8 +26,8 @@ class Sha256 {
   Digest finish();  // once
 
  private:
-  void block(const uint8_t* data);
-  std::array<uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  Sha256Blocks blocks_ = sha256_blocks();
+  Sha256State state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<uint8_t, 64> pending_{};
   uint64_t size_ = 0;
 };

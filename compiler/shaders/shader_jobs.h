@@ -15,9 +15,12 @@ struct FrontEndResult {
   ModuleUses uses;             // of `generic`
   Words generic;               // optimised, specialisation constants open, named
   std::set<uint32_t> numbers;  // of the specialisation constants it still looks at
-  Digest key;                  // of everything it depends on; only with a cache
+  Digest key;                  // of `generic` and the tools; only with a cache
 };
 std::vector<FrontEndResult> run_front_ends(const std::vector<FrontEndJob>& jobs, ShaderSources& sources, const ShaderOptions& options);
+
+// Of everything that the variants of `space` are made from.
+Digest digest_of_variants(const dsl::Program& program, dsl::GraphId graph, const VariantSpace& space, const ReadFile& read);
 
 using ConstantValues = std::vector<std::pair<uint32_t, uint32_t>>;  // number of a specialisation constant, value; ascending
 struct SpecialiseJob {
@@ -25,7 +28,7 @@ struct SpecialiseJob {
   ConstantValues values;  // of exactly FrontEndResult::numbers
   friend auto operator<=>(const SpecialiseJob&, const SpecialiseJob&) = default;
 };
-// Validated, optimised, stripped SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
+// Optimised, stripped and, unless it is a draft, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
 std::vector<Words> specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);
 
 }  // namespace rg::compiler

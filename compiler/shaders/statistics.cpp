@@ -3,8 +3,9 @@
 #include <spirv-tools/libspirv.h>
 
 #include <algorithm>
+#include <bit>
 #include <glslang/SPIRV/spirv.hpp>
-#include <unordered_set>
+#include <span>
 
 #include "dsl/check_macro.h"
 
@@ -14,13 +15,17 @@ namespace {
 struct Instruction {
   spv::Op op = spv::OpNop;
   uint32_t type = 0, result = 0;
-  std::vector<uint32_t> uses;  // ids it takes, without its type
-  std::vector<uint32_t> words;
+  uint32_t first_use = 0, use_count = 0;  // ids it takes, without its type: in Module::uses
+  std::span<const uint32_t> words;
 };
 
 // ---- reading: SPIRV-Tools says which operands are ids
 
 struct Module {
+  explicit Module(const Words& all) : words(all) {}
+  const Words& words;
+  size_t read = 5;  // words, the header among them
+  std::vector<uint32_t> uses;
   std::vector<Instruction> globals;
   std::vector<std::vector<Instruction>> functions;
   std::vector<uint32_t> scalars;  // by id of a type: 32-bit scalars of a value
@@ -29,7 +34,7 @@ struct Module {
   std::vector<uint64_t> constants;
   std::vector<uint32_t> storage;  // by id of a pointer: its storage class + 1
   std::vector<uint32_t> pointee;  // by id of a pointer type
-  std::vector<bool> is_image_pointer;
+  std::span<const uint32_t> uses_of(const Instruction& i) const { return std::span(uses).subspan(i.first_use, i.use_count); }
 };
 
 bool is_id(spv_operand_type_t type) {
@@ -46,20 +51,26 @@ spv_result_t read_header(void* user, spv_endianness_t, uint32_t, uint32_t, uint3
 
 spv_result_t read_instruction(void* user, const spv_parsed_instruction_t* parsed) {
   auto& module = *static_cast<Module*>(user);
-  Instruction instruction{static_cast<spv::Op>(parsed->opcode), parsed->type_id, parsed->result_id, {}, {}};
-  instruction.words.assign(parsed->words, parsed->words + parsed->num_words);
+  Instruction instruction{static_cast<spv::Op>(parsed->opcode),
+                          parsed->type_id,
+                          parsed->result_id,
+                          static_cast<uint32_t>(module.uses.size()),
+                          0,
+                          std::span(module.words).subspan(module.read, parsed->num_words)};
+  module.read += parsed->num_words;
   for (uint16_t i = 0; i < parsed->num_operands; ++i)
-    if (is_id(parsed->operands[i].type)) instruction.uses.push_back(parsed->words[parsed->operands[i].offset]);
+    if (is_id(parsed->operands[i].type)) module.uses.push_back(parsed->words[parsed->operands[i].offset]);
+  instruction.use_count = static_cast<uint32_t>(module.uses.size()) - instruction.first_use;
   if (instruction.op == spv::OpFunction) module.functions.emplace_back();
   if (module.functions.empty())
-    module.globals.push_back(std::move(instruction));
+    module.globals.push_back(instruction);
   else
-    module.functions.back().push_back(std::move(instruction));
+    module.functions.back().push_back(instruction);
   return SPV_SUCCESS;
 }
 
 Module read(const Words& words) {
-  Module module;
+  Module module(words);
   spv_context context = spvContextCreate(SPV_ENV_VULKAN_1_3);
   const spv_result_t result = spvBinaryParse(context, &module, words.data(), words.size(), read_header, read_instruction, nullptr);
   spvContextDestroy(context);
@@ -77,7 +88,7 @@ void set_type(Module& m, uint32_t id, uint32_t scalars, uint32_t bytes, uint32_t
 
 void add_struct(Module& m, const Instruction& i) {
   uint32_t scalars = 0, bytes = 0, align = 1;
-  for (const uint32_t member : i.uses) {
+  for (const uint32_t member : m.uses_of(i)) {
     scalars += m.scalars[member];
     bytes = round_up(bytes, m.aligns[member]) + m.bytes[member];
     align = std::max(align, m.aligns[member]);
@@ -141,102 +152,133 @@ void count(const Module& m, const Instruction& i, const std::vector<uint32_t>& t
 
 // ---- liveness
 
+// Bits by dense number of a value; a row a block.
+class BitRows {
+ public:
+  BitRows(size_t rows, size_t bits) : words_((bits + 63) / 64), data_(rows * words_) {}
+  uint64_t* row(size_t i) { return data_.data() + i * words_; }
+  const uint64_t* row(size_t i) const { return data_.data() + i * words_; }
+  size_t words() const { return words_; }
+
+ private:
+  size_t words_;
+  std::vector<uint64_t> data_;
+};
+
 struct Block {
-  size_t begin = 0, end = 0;              // instructions of the function
-  std::vector<uint32_t> successors;       // labels
-  std::unordered_set<uint32_t> live_out;  // ids; only counted, never listed
+  size_t begin = 0, end = 0;         // instructions of the function
+  std::vector<uint32_t> successors;  // numbers of blocks
 };
 
 class Liveness {
  public:
-  Liveness(const std::vector<Instruction>& function, const std::vector<uint32_t>& sizes) : function_(function), sizes_(sizes) {
-    for (size_t i = 0; i < function.size(); ++i) {
-      if (function[i].op == spv::OpLabel) blocks_.push_back({i, i, {}, {}});
-      if (!blocks_.empty()) blocks_.back().end = i + 1;
-    }
-    for (Block& block : blocks_) block.successors = successors(function[block.end - 1]);
+  // `sizes`: scalars by id, of the values that count.
+  Liveness(const Module& module, const std::vector<Instruction>& function, const std::vector<uint32_t>& sizes)
+      : module_(module), function_(function), number_of_(sizes.size(), kNone) {
+    for (const Instruction& i : function)
+      if (i.result != 0 && sizes[i.result] > 0) number_of_[i.result] = static_cast<uint32_t>(scalars_.size()), scalars_.push_back(sizes[i.result]);
+    find_blocks();
+    in_ = out_ = defined_ = BitRows(blocks_.size(), scalars_.size());
+    for (size_t b = 0; b < blocks_.size(); ++b) find_own(b);
+    add_edges();
   }
 
   uint32_t most() {
     while (sweep()) {
     }
     uint32_t most = 0;
-    for (const Block& block : blocks_) most = std::max(most, most_in(block));
+    for (size_t b = 0; b < blocks_.size(); ++b) most = std::max(most, most_in(b));
     return most;
   }
 
  private:
-  bool counts(uint32_t id) const { return id < sizes_.size() && sizes_[id] > 0; }
+  static constexpr uint32_t kNone = UINT32_MAX;
 
-  static std::vector<uint32_t> successors(const Instruction& last) {
+  void find_blocks() {
+    std::vector<uint32_t> block_of(number_of_.size(), kNone);  // by label
+    for (size_t i = 0; i < function_.size(); ++i) {
+      if (function_[i].op == spv::OpLabel) block_of[function_[i].result] = static_cast<uint32_t>(blocks_.size()), blocks_.push_back({i, i, {}});
+      if (!blocks_.empty()) blocks_.back().end = i + 1;
+    }
+    for (Block& block : blocks_)
+      for (const uint32_t label : successors(function_[block.end - 1]))
+        if (block_of[label] != kNone) block.successors.push_back(block_of[label]);
+  }
+
+  std::vector<uint32_t> successors(const Instruction& last) const {
     const auto& w = last.words;
     if (last.op == spv::OpBranch) return {w[1]};
     if (last.op == spv::OpBranchConditional) return {w[2], w[3]};
-    std::vector<uint32_t> labels;
-    if (last.op == spv::OpSwitch) labels.assign(last.uses.begin() + 1, last.uses.end());
-    return labels;
+    const auto uses = module_.uses_of(last);
+    return last.op == spv::OpSwitch ? std::vector<uint32_t>(uses.begin() + 1, uses.end()) : std::vector<uint32_t>();
   }
 
-  const Block* find(uint32_t label) const {
-    const auto at = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) { return function_[b.begin].result == label; });
-    return at == blocks_.end() ? nullptr : &*at;
-  }
+  uint32_t number(uint32_t id) const { return id < number_of_.size() ? number_of_[id] : kNone; }
+  static void set(uint64_t* row, uint32_t bit) { row[bit / 64] |= uint64_t{1} << bit % 64; }
+  static bool has(const uint64_t* row, uint32_t bit) { return row[bit / 64] >> bit % 64 & 1; }
 
-  // Removes what the instruction makes and adds what it takes; phis take theirs on the edge.
-  void step(const Instruction& i, std::unordered_set<uint32_t>& live) const {
-    live.erase(i.result);
-    if (i.op == spv::OpPhi) return;
-    for (const uint32_t id : i.uses)
-      if (counts(id)) live.insert(id);
+  // What the block needs from before, and what it makes. Phis take theirs on the edge.
+  void find_own(size_t b) {
+    for (size_t i = blocks_[b].begin; i < blocks_[b].end; ++i) {
+      const Instruction& at = function_[i];
+      if (at.op != spv::OpPhi)
+        for (const uint32_t id : module_.uses_of(at))
+          if (const uint32_t bit = number(id); bit != kNone && !has(defined_.row(b), bit)) set(in_.row(b), bit);
+      if (const uint32_t bit = number(at.result); at.result != 0 && bit != kNone) set(defined_.row(b), bit);
+    }
   }
-
-  std::unordered_set<uint32_t> live_in(const Block& block) const {
-    std::unordered_set<uint32_t> live = block.live_out;
-    for (size_t i = block.end; i-- > block.begin;) step(function_[i], live);
-    return live;
+  void add_edges() {
+    for (size_t b = 0; b < blocks_.size(); ++b)
+      for (const uint32_t next : blocks_[b].successors)
+        for (size_t i = blocks_[next].begin + 1; i < blocks_[next].end && function_[i].op == spv::OpPhi; ++i)
+          add_phi(function_[i], function_[blocks_[b].begin].result, b);
+  }
+  void add_phi(const Instruction& phi, uint32_t from, size_t b) {
+    const auto uses = module_.uses_of(phi);
+    for (size_t k = 0; k + 1 < uses.size(); k += 2)
+      if (const uint32_t bit = number(uses[k]); uses[k + 1] == from && bit != kNone) set(out_.row(b), bit);
   }
 
   bool sweep() {
     bool changed = false;
     for (size_t b = blocks_.size(); b-- > 0;) {
-      Block& block = blocks_[b];
-      const size_t before = block.live_out.size();
-      for (const uint32_t label : block.successors) {
-        const Block* next = find(label);
-        if (next == nullptr) continue;
-        block.live_out.merge(live_in(*next));
-        for (size_t i = next->begin + 1; i < next->end && function_[i].op == spv::OpPhi; ++i)
-          add_phi(function_[i], function_[block.begin].result, block);
+      uint64_t *out = out_.row(b), *in = in_.row(b);
+      const uint64_t* defined = defined_.row(b);
+      for (const uint32_t next : blocks_[b].successors)
+        for (size_t w = 0; w < out_.words(); ++w) out[w] |= in_.row(next)[w];
+      for (size_t w = 0; w < out_.words(); ++w) {
+        const uint64_t wider = in[w] | (out[w] & ~defined[w]);
+        changed = changed || wider != in[w];
+        in[w] = wider;
       }
-      changed = changed || block.live_out.size() != before;
     }
     return changed;
   }
 
-  void add_phi(const Instruction& phi, uint32_t from, Block& block) const {
-    for (size_t k = 0; k + 1 < phi.uses.size(); k += 2)
-      if (phi.uses[k + 1] == from && counts(phi.uses[k])) block.live_out.insert(phi.uses[k]);
-  }
-
-  uint32_t most_in(const Block& block) const {
-    std::unordered_set<uint32_t> live = block.live_out;
+  uint32_t most_in(size_t b) {
+    uint64_t* live = out_.row(b);  // nobody needs it afterwards
     uint32_t now = 0;
-    for (const uint32_t id : live) now += sizes_[id];
+    for (size_t w = 0; w < out_.words(); ++w)
+      for (uint64_t rest = live[w]; rest != 0; rest &= rest - 1) now += scalars_[w * 64 + static_cast<size_t>(std::countr_zero(rest))];
     uint32_t most = now;
-    for (size_t i = block.end; i-- > block.begin;) {
+    for (size_t i = blocks_[b].end; i-- > blocks_[b].begin;) {
       const Instruction& at = function_[i];
-      if (live.erase(at.result)) now -= sizes_[at.result];
+      if (const uint32_t bit = number(at.result); at.result != 0 && bit != kNone && has(live, bit))
+        live[bit / 64] &= ~(uint64_t{1} << bit % 64), now -= scalars_[bit];
       if (at.op == spv::OpPhi) continue;
-      for (const uint32_t id : at.uses)
-        if (counts(id) && live.insert(id).second) now += sizes_[id];
+      for (const uint32_t id : module_.uses_of(at))
+        if (const uint32_t bit = number(id); bit != kNone && !has(live, bit)) set(live, bit), now += scalars_[bit];
       most = std::max(most, now);
     }
     return most;
   }
 
+  const Module& module_;
   const std::vector<Instruction>& function_;
-  const std::vector<uint32_t>& sizes_;
+  std::vector<uint32_t> number_of_;  // by id; kNone: it does not count
+  std::vector<uint32_t> scalars_;    // by number
   std::vector<Block> blocks_;
+  BitRows in_{0, 0}, out_{0, 0}, defined_{0, 0};
 };
 
 uint32_t shared_bytes(const Module& m) {
@@ -268,7 +310,7 @@ ShaderStatistics find_statistics(const Words& words) {
       if (i.type != 0) sizes[i.result] = module.scalars[i.type];
     }
     for (const Instruction& i : function) count(module, i, type_of, statistics);
-    statistics.live_scalars = std::max(statistics.live_scalars, Liveness(function, sizes).most());
+    statistics.live_scalars = std::max(statistics.live_scalars, Liveness(module, function, sizes).most());
   }
   return statistics;
 }

@@ -27,7 +27,7 @@ struct ShaderStatistics {
 // Each count's greater one.
 ShaderStatistics greatest(const ShaderStatistics& a, const ShaderStatistics& b);
 
-// `words` is a valid module. O(instructions + blocks * values alive across them).
+// `words` is a valid module. O(instructions + sweeps * blocks * values / 64); sweeps are as many as loops nest, and one.
 ShaderStatistics find_statistics(const Words& words);
 
 }  // namespace rg::compiler

@@ -6,7 +6,9 @@
 #include <set>
 
 #include "compiler/shaders/cache.h"
+#include "compiler/shaders/shader_jobs.h"
 #include "compiler/shaders/statistics.h"
+#include "compiler/spectrum/kept_choice.h"
 
 namespace rg::compiler {
 namespace {
@@ -135,28 +137,37 @@ std::set<Mask> sampled_sets(const SpectrumProblem& problem) {
   return sets;
 }
 
-// The kernels of these sets, as they will be built. Empty where the shader does not compile: that is reported when it is built.
-std::vector<double> measure_kernels(const dsl::Program& program, const User& user, const std::vector<Mask>& sets, const ReadFile& read,
-                                              dsl::SourceFiles files, const SpectrumOptions& options) {
-  const dsl::Program expanded = expand_spectra(program, {{user.pass->spectrum, sets}});
-  const dsl::Graph& graph = expanded.graphs[user.graph];
+// The program in which the pass has kernels of these sets, and nothing to compile but them.
+struct KernelProgram {
+  dsl::Program program;
   VariantSpace space;
-  std::vector<size_t> kernels(sets.size(), SIZE_MAX);
+  std::vector<size_t> passes;  // by set
+};
+KernelProgram with_kernels(const dsl::Program& program, const User& user, const std::vector<Mask>& sets) {
+  KernelProgram out{expand_spectra(program, {{user.pass->spectrum, sets}}), {}, std::vector<size_t>(sets.size(), SIZE_MAX)};
+  const dsl::Graph& graph = out.program.graphs[user.graph];
   for (size_t p = 0; p < graph.passes.size(); ++p) {
-    space.passes.emplace_back();
+    out.space.passes.emplace_back();
     for (size_t k = 0; k < sets.size(); ++k) {
       if (graph.passes.rows[p].name != kernel_name(user.pass->name, k)) continue;
-      kernels[k] = p;
+      out.passes[k] = p;
       VariantRow row;
       for (const dsl::ShaderFeature& feature : graph.passes.rows[p].features)
         row.values.push_back(feature.feature.valid() ? program.features[feature.feature].initial : feature.value);
-      space.passes.back().push_back(std::move(row));
+      out.space.passes.back().push_back(std::move(row));
     }
   }
+  return out;
+}
+
+// The kernels of these sets, as they will be built. Empty where the shader does not compile: that is reported when it is built.
+std::vector<double> measure_kernels(const dsl::Program& program, const User& user, const std::vector<Mask>& sets, const ReadFile& read,
+                                    dsl::SourceFiles files, const SpectrumOptions& options) {
+  const KernelProgram kernels = with_kernels(program, user, sets);
   dsl::Diagnostics ignored;
-  const ShaderBundle bundle = compile_shaders(expanded, user.graph, space, read, files, {options.cache, options.workers, options.progress}, ignored);
+  const ShaderBundle bundle = compile_shaders(kernels.program, user.graph, kernels.space, read, files, {options.cache, options.workers, options.progress, true}, ignored);
   std::vector<double> costs;
-  for (const size_t pass : kernels) {
+  for (const size_t pass : kernels.passes) {
     if (pass == SIZE_MAX || bundle.passes[pass].shaders.empty()) return {};
     costs.push_back(cached_cost(bundle.shaders[bundle.passes[pass].shaders[0]].words, options.cache));
   }
@@ -206,6 +217,27 @@ ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, S
   return choice;
 }
 
+// Of what all kernels are made from: they differ in the values of features alone, so two say it for all.
+Digest digest_of_kernels(const dsl::Program& program, const User& user, const SpectrumProblem& problem, const ReadFile& read) {
+  const KernelProgram kernels = with_kernels(program, user, {0, close(problem, static_cast<Mask>((uint64_t{1} << problem.features) - 1))});
+  return digest_of_variants(kernels.program, user.graph, kernels.space, read);
+}
+
+// By measured times where there are some, else by statistics; from the cache where nothing changed.
+ModeChoice choose(const dsl::Program& program, const User& user, bool timed, SpectrumProblem& problem, const ReadFile& read, const dsl::SourceFiles& files,
+                  const SpectrumOptions& options) {
+  if (timed) return choose_modes(problem);
+  if (options.cache == nullptr) return choose_by_statistics(program, user, problem, read, files, options);
+  const Digest key = choice_key(problem, digest_of_kernels(program, user, problem, read));
+  if (auto kept = find_choice(*options.cache, key, problem)) {
+    problem.costs = std::move(kept->costs);
+    return std::move(kept->choice);
+  }
+  ModeChoice choice = choose_by_statistics(program, user, problem, read, files, options);
+  if (!problem.costs.measured.empty()) store_choice(*options.cache, key, {problem.costs, choice});
+  return choice;
+}
+
 }  // namespace
 
 std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const ReadFile& read, const ReadFile& read_override, dsl::SourceFiles& files,
@@ -222,7 +254,7 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
     SpectrumProblem problem = make_problem(spectrum, profile, options);
     const bool timed = profile && !profile->costs.empty();
     if (timed) problem.costs = fitted(problem.features, profile->costs);
-    ModeChoice choice = timed ? choose_modes(problem) : choose_by_statistics(program, users[0], problem, read, files, options);
+    ModeChoice choice = choose(program, users[0], timed, problem, read, files, options);
     choices.push_back({dsl::SpectrumId{s}, users[0].pass->name, std::move(profile), std::move(problem), std::move(choice)});
   }
   return choices;

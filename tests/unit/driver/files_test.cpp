@@ -136,6 +136,26 @@ TEST_F(Files, OthersAreWrittenWithTheFolderOrNotAtAll) {
   EXPECT_EQ(std::distance(fs::directory_iterator(path("elsewhere")), {}), 1);  // nothing temporary is left
 }
 
+TEST_F(Files, AFailureInTheMiddlePutsEverythingBack) {
+  ASSERT_TRUE(write_output(path("out"), {{"a.h", "1"}, {"b.h", "1"}}, diagnostics_));
+  // The second needs a folder where the first is to stand: only renaming finds out.
+  const std::vector<compiler::GeneratedFile> others = {{path("plans/p"), "p"}, {path("plans/p/d"), "d"}};
+  EXPECT_FALSE(write_output(path("out"), {{"a.h", "2"}, {"c.h", "2"}}, diagnostics_, others));
+  ASSERT_EQ(diagnostics_.rows().size(), 1u);
+  EXPECT_EQ(diagnostics_.rows()[0].arguments, (std::vector<std::string>{path("plans/p"), "it is a folder", "nothing was changed"}));
+  EXPECT_EQ(get("out/a.h"), "1");
+  EXPECT_EQ(get("out/b.h"), "1");
+  EXPECT_NE(get("out/manifest.txt").find("b.h"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("plans")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("out")), {}), 3);  // nothing new, nothing temporary
+}
+
+TEST_F(Files, AStampThatCannotBeTouchedSaysThatTheRestIsDone) {
+  EXPECT_FALSE(touch_file(path("no/stamp"), diagnostics_));
+  ASSERT_EQ(diagnostics_.rows().size(), 1u);
+  EXPECT_EQ(diagnostics_.rows()[0].arguments[2], "what it stands for is done");
+}
+
 TEST_F(Files, OutputFolderMustBeAFolder) {
   put("out", "mine");
   EXPECT_FALSE(write_output(path("out"), {{"a.h", "1"}}, diagnostics_));

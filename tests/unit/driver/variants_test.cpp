@@ -202,8 +202,21 @@ TEST(CacheOfAFrame, AnEditOrAnotherOptionIsAnotherEntry) {
   compile_files(files, options);
   files["more.glsl"] = "  c.g = 0.6;\n";
   const Compiled edited = compile_files(files, options);
-  EXPECT_EQ(edited.result.cache.stored, 3u);  // the front end's module and two variants
+  EXPECT_EQ(edited.result.cache.stored, 6u);  // by sources and by words: the front end's module; by values and by words: two variants
   EXPECT_EQ(all_text(edited.result), all_text(compile_files(files).result));
+}
+
+TEST(CacheOfAFrame, AnEditThatChangesNoCodeCostsTheFrontEndAlone) {
+  const Folder folder;
+  Files files = frame_with("features sun", "  if (sun) c.r = 1.0;\n");
+  CompileOptions options;
+  options.cache_folder = folder.path;
+  const std::string plain = all_text(compile_files(files, options).result);
+  files["light.comp"] += "// said once more\n";
+  const Compiled edited = compile_files(files, options);
+  EXPECT_EQ(edited.result.cache.stored, 1u);  // what the new sources compile to
+  EXPECT_EQ(edited.result.cache.misses, 1u);
+  EXPECT_EQ(all_text(edited.result), plain);
 }
 
 TEST(CacheOfAFrame, DamageIsReportedAndRepaired) {
@@ -285,6 +298,27 @@ TEST(SpectrumOfAFrame, IsReplacedByThePassesThatRunIt) {
   for (const char* name : {"shade.reset", "shade.classify", "shade[0]", "shade[1]"}) EXPECT_NE(names.find(name), std::string::npos) << names;
   EXPECT_EQ(compiled.result.spectra[0].choice.modes, (std::vector<Mask>{0, 3}));
   EXPECT_NE(std::find(compiled.result.read_files.begin(), compiled.result.read_files.end(), "p.json"), compiled.result.read_files.end());
+}
+
+// A kernel that was only measured is not taken for one that was validated, nor a choice for another shader's.
+TEST(SpectrumOfAFrame, IsChosenOnceAndAgainWhenItsShaderChanges) {
+  const Folder folder;
+  CompileOptions options;
+  options.cache_folder = folder.path;
+  Files files = tiles_with("profile \"p.json\"", "ceil(view / 8).area", kGoodProfile);
+  const std::string plain = all_text(compile_files(files).result);
+  EXPECT_EQ(all_text(compile_files(files, options).result), plain);
+  const Compiled again = compile_files(files, options);
+  EXPECT_EQ(again.result.cache.stored, 0u);
+  EXPECT_EQ(again.result.cache.misses, 0u);
+  EXPECT_EQ(all_text(again.result), plain);
+  // Now `a` is what costs, and half the tiles do without.
+  files["shade.comp"] = "void main() { uvec2 p = spectrum_pixel(); float x = float(p.x); if (a) { for (int i = 0; i < 9; ++i) x += sin(x) * cos(x); }\n"
+                        "shown[p.y * 64u + p.x] += uint(x) + (b ? 2u : 0u); }\n";
+  const Compiled changed = compile_files(files, options);
+  EXPECT_GT(changed.result.cache.stored, 0u);
+  EXPECT_EQ(all_text(changed.result), all_text(compile_files(files).result));
+  EXPECT_NE(changed.result.spectra[0].choice.expected, again.result.spectra[0].choice.expected);
 }
 
 TEST(SpectrumOfAFrame, WithoutAProfileThereIsADefaultAndANote) {

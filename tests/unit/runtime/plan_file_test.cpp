@@ -166,12 +166,16 @@ TEST_F(PlanWatchTest, KnowsTheFileThatWasThere) {
 
 // ---- does it fit the program? -------------------------------------------------------------------------------------
 
+constexpr Feature kPath[] = {{"path", 3, 0, Capability::none, 77}}, kFewer[] = {{"path", 2, 0, Capability::none, 77}},
+                  kReordered[] = {{"path", 3, 0, Capability::none, 78}};
+
 template <class Change>
 std::string difference(Change change) {
   test::Tint built = test::tint(), loaded = test::tint();
   for (test::Tint* t : {&built, &loaded}) {
     t->plan.conditions = {"moved"};
     t->plan.params.push_back({"camera", 16, kNone, 5});
+    t->plan.base.features = kPath;
   }
   change(loaded);
   return test::message(check_interface(built.plan.view(), loaded.plan.view()));
@@ -182,6 +186,7 @@ TEST(PlanInterface, WhatLiesInsideMayChange) {
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.resources[t.final].format = test::kR32f; }), "no error");
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.passes[t.tint].name = "colour"; }), "no error");
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.conditions.clear(); }), "no error");
+  EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.features = {}; }), "no error");
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.params.clear(); }), "no error");
 }
 
@@ -195,6 +200,9 @@ TEST(PlanInterface, WhatTheProgramBringsMayNot) {
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.conditions.insert(t.plan.conditions.begin(), "dark"); }),
             what + "condition `dark` stands where `moved` was" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.passes[t.draw].name = "draw_all"; }), what + "host pass `draw_all` stands where `draw` was" + way_out);
+  EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.features = kFewer; }), what + "feature `path` changed" + way_out);
+  EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.features = kReordered; }),
+            what + "feature `path` has values of other names, or in another order" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.passes[t.draw].push_layout = 3; }), what + "host pass `draw` has other push constants" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) {
               t.plan.resources[t.final].lifetime = Lifetime::imported;

@@ -50,6 +50,22 @@ TEST(Sha256, KnownDigests) {
   EXPECT_NE(Sha256().add_part("ab").add_part("c").finish(), Sha256().add_part("a").add_part("bc").finish());
 }
 
+TEST(Sha256, TheProcessorsInstructionsAndPortableCodeAgree) {
+  const Sha256Blocks native = sha256_blocks_native();
+  if (native == nullptr) GTEST_SKIP() << "this processor has no instructions for SHA-256";
+  std::mt19937 random(1);
+  std::vector<uint8_t> data(64 * 20);
+  for (size_t blocks = 0; blocks <= 20; ++blocks) {
+    Sha256State a, b;
+    for (uint32_t& word : a) word = random();
+    for (uint8_t& byte : data) byte = static_cast<uint8_t>(random());
+    b = a;
+    native(a, data.data(), blocks);
+    sha256_blocks_portable(b, data.data(), blocks);
+    EXPECT_EQ(a, b) << blocks << " blocks";
+  }
+}
+
 TEST_F(Cache, GivesBackWhatItTook) {
   const ShaderCache cache(folder);
   EXPECT_EQ(cache.find(key(1)), std::nullopt);
