@@ -284,6 +284,9 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
     const bool fits = check_role(rules, access);
     roles_fit = roles_fit && fits;
     if (fits && rules.resource(access).kind == ResourceKind::image) check_image_use(rules, access);
+    const bool in_block = fits && (access.role == Role::storage || access.role == Role::uniform);
+    if (in_block) check_not_packed(checker, rules.resource(access).element.record, access.span);
+    if (fits && is_shader_role(access.role)) check_imported_texels(rules, access);
     const bool sampled_texels = rules.resource(access).kind == ResourceKind::buffer && access.sampler.valid();
     if (sampled_texels) checker.report(DiagnosticKind::SamplerOfRole, access.span, {word_of(access.role)});
     if (fits && access.role == Role::storage && rules.resource(access).format != Format::none && rules.resource(access).kind == ResourceKind::buffer)

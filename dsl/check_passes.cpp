@@ -163,6 +163,8 @@ void read_per_draw(Builder& at, const ast::PerDraw& node) {
   if (!type.valid()) return void(at.out.dropped = true);
   const Struct& record = at.checker.program.structs[type];
   const Span span = node.type ? node.type->span : node.name.span;
+  if (!type.valid() || !check_not_packed(at.checker, type, span)) return void(at.out.dropped = true);
+  const Struct& record = at.checker.program.structs[type];
   if (record.size430 > kMaxPushBytes)
     return fail(at, DiagnosticKind::PushConstantsTooLarge, span, {record.name, std::to_string(record.size430), std::to_string(kMaxPushBytes)});
   at.out.pass.draw.per_draw = type;
@@ -198,7 +200,7 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   const std::string name(node.name.text);
   if (node.type) {
     const StructId type = find_struct(at.checker, at.scope.module, *node.type);
-    if (!type.valid()) return void(at.out.dropped = true);
+    if (!type.valid() || !check_not_packed(at.checker, type, node.type->span)) return void(at.out.dropped = true);
     at.out.pass.params.push_back(at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span}));
     return;
   }

@@ -371,7 +371,7 @@ void declare_surface(Checker& checker, GraphScope& scope, const ast::Parameter& 
 void declare_params(Checker& checker, GraphScope& scope, const ast::Parameter& parameter) {
   const std::string name(parameter.name.text);
   const StructId type = find_struct(checker, scope.module, parameter.type);
-  if (!type.valid()) {
+  if (!type.valid() || !check_not_packed(checker, type, parameter.type.span)) {
     scope.failed[name] = true;
     return;
   }

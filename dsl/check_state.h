@@ -178,6 +178,9 @@ StructId struct_in_place(Checker& checker, uint32_t module, const ast::StructDec
 // The element of `T`, `T[n]`, `T[]`; count is left to the caller.
 std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& type);
 
+// Reports a struct with fields of formats, which only vertex buffers can hold, and gives false.
+bool check_not_packed(Checker& checker, StructId record, Span span);
+
 // ---- check_states.cpp -------------------------------------------------------------------------------------------
 SamplerId sampler_of(Checker& checker, uint32_t symbol);
 StateId state_of(Checker& checker, uint32_t symbol);

@@ -293,6 +293,8 @@ std::string print_type(const Program& program, const Type& type) {
   std::string text;
   if (type.record.valid())
     text = program.structs[type.record].name;
+  else if (type.packed != Format::none)
+    text = name(type.packed);
   else if (type.columns > 1)
     text = type.rows == type.columns ? fmt::format("mat{}", type.rows) : fmt::format("mat{}x{}", type.columns, type.rows);
   else if (type.rows > 1)

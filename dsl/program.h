@@ -67,6 +67,7 @@ struct Type {  // scalar, vector (columns 1), matrix, or struct; `count` 0 means
   uint8_t rows = 1, columns = 1;
   StructId record;  // valid: a struct, and the fields above are unused
   uint32_t count = 0;
+  Format packed = Format::none;  // of a vertex: the format of its bytes, which shaders see as what stands above
   friend bool operator==(const Type&, const Type&) = default;
 };
 struct Field {

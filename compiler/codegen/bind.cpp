@@ -96,6 +96,7 @@ Sampler convert(const dsl::Sampler& sampler) {
 // ---- vertex input
 
 Format vertex_format(const dsl::Type& type) {
+  if (type.packed != dsl::Format::none) return format_row(type.packed).vulkan;
   constexpr uint32_t kUint[] = {98, 101, 104, 107}, kInt[] = {99, 102, 105, 108}, kFloat[] = {100, 103, 106, 109};
   const size_t last = type.rows - 1;
   if (type.scalar == dsl::Scalar::f32) return static_cast<Format>(kFloat[last]);
@@ -103,6 +104,13 @@ Format vertex_format(const dsl::Type& type) {
 }
 
 uint32_t column_bytes(const dsl::Type& type) { return type.columns == 1 ? 4u * type.rows : type.rows == 2 ? 8u : 16u; }
+
+// From one column, or element of an array, to the next.
+uint32_t attribute_stride(const dsl::Type& type, bool scalar) {
+  if (type.packed != dsl::Format::none) return dsl::info(type.packed).block_bytes;
+  if (scalar) return 4u * type.rows;
+  return type.count > 0 && type.columns == 1 && type.rows == 3 ? 16 : column_bytes(type);
+}
 
 // One location a column of each array element, as GLSL counts them.
 void add_attributes(PlanData& plan, const dsl::Field& field, bool scalar, uint32_t binding, uint32_t& location) {

@@ -48,8 +48,14 @@ void add_struct(const dsl::Program& program, dsl::StructId id, std::vector<bool>
   prelude.push_back({"};", record.span});
 }
 
+// Vertices come in field by field: no block holds those that are packed.
+bool is_packed(const dsl::Struct& record) {
+  return std::any_of(record.fields.begin(), record.fields.end(), [](const dsl::Field& field) { return field.type.packed != dsl::Format::none; });
+}
+
 void add_structs(const dsl::Program& program, Prelude& prelude) {
   std::vector<bool> done(program.structs.size(), false);
+  for (size_t i = 0; i < program.structs.size(); ++i) done[i] = is_packed(program.structs.rows[i]);
   for (size_t i = 0; i < program.structs.size(); ++i) add_struct(program, dsl::StructId{i}, done, prelude);
 }
 
