@@ -54,8 +54,8 @@ bool of_buffers(Role role) {
 }
 
 bool of_texels(Role role) {
-  return role == Role::sampled ||
-         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::index && role != Role::indirect);
+  return role == Role::sampled || role == Role::index ||
+         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::indirect);
 }
 
 bool of_pass(Role role, PassKind kind) {
@@ -221,11 +221,6 @@ void check_attachments(const Rules& rules) {
 bool overlap(uint32_t a, uint32_t a_count, uint32_t b, uint32_t b_count) {
   const uint64_t a_end = a_count == kAll ? UINT64_MAX : uint64_t{a} + a_count, b_end = b_count == kAll ? UINT64_MAX : uint64_t{b} + b_count;
   return a < b_end && b < a_end;
-}
-
-std::optional<int64_t> known(const Rules& rules, ExprId id) {
-  if (!id.valid() || rules.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
-  return rules.checker.program.exprs[id].value;
 }
 
 // Byte ranges that are not known now may overlap.

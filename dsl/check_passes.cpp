@@ -160,8 +160,6 @@ void read_per_draw(Builder& at, const ast::PerDraw& node) {
   constexpr uint32_t kMaxPushBytes = 128;  // what every Vulkan device has
   const StructId type = node.declaration ? struct_in_place(at.checker, at.scope.module, *node.declaration)
                                          : find_struct(at.checker, at.scope.module, *node.type);
-  if (!type.valid()) return void(at.out.dropped = true);
-  const Struct& record = at.checker.program.structs[type];
   const Span span = node.type ? node.type->span : node.name.span;
   if (!type.valid() || !check_not_packed(at.checker, type, span)) return void(at.out.dropped = true);
   const Struct& record = at.checker.program.structs[type];
@@ -182,16 +180,19 @@ void visit(Builder& at, const ast::DrawStatement& node) {
     read_indirect_draw(at, node);
   else if (node.vertices) {
     draw.kind = DrawKind::direct;
+    draw.indexed = node.indexed;
     draw.vertices = count_expr(at, node.vertices);
     draw.instances = count_expr(at, node.instances);
+    if (node.first) draw.first = count_expr(at, node.first);
+    if (node.offset) draw.offset = count_expr(at, node.offset);
   }
   if (node.per_draw) read_per_draw(at, *node.per_draw);
-  for (const ast::Expr& name : node.vertex) {
-    const StructId type = find_struct(at.checker, at.scope.module, name);
+  for (const ast::VertexStatement& vertex : node.vertex) {
+    const StructId type = find_struct(at.checker, at.scope.module, vertex.type);
     if (!type.valid())
       at.out.dropped = true;
     else
-      draw.vertex.push_back(type);
+      draw.vertex.push_back({type, vertex.per_instance, kAll});
   }
 }
 
@@ -450,6 +451,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   check_work(at);
   if (at.out.dropped) return drop_pass(at);
   merge_reads_and_writes(at.out.pass);
+  if (!bind_buffers(checker, scope.graph, at.out.pass, at.draw_span)) return drop_pass(at);
   settle_modes(at);
   settle_stages(at.out.pass);
   name_hidden_accesses(at.out.pass);

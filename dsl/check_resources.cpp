@@ -233,7 +233,6 @@ const char* texel_fault(const Builder& at, const FormatInfo& format) {
   if (!format.is_color()) return "depth and stencil need an image";
   if (format.is_block()) return "blocks need an image";
   if (format.numeric == Numeric::srgb) return "buffers have no sRGB conversion";
-  if (at.resource.lifetime == Lifetime::imported) return "what the engine brings holds plain elements; see it through a copy";
   return at.resource.lifetime == Lifetime::readback ? "the host reads plain elements; copy it to a buffer that is read back" : nullptr;
 }
 

@@ -244,6 +244,9 @@ FusionId declare_fusion(Checker& checker, GraphScope& scope, const ast::Fuse& no
 void finish_fusion(Checker& checker, const GraphScope& scope, FusionId fusion);
 void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
 void merge_reads_and_writes(Pass& pass);
+// ---- check_draws.cpp
+// Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a report.
+bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
 void name_hidden_accesses(Pass& pass);
 bool is_shader_role(Role role);
 bool is_written(Mode mode);

@@ -175,11 +175,17 @@ void print_draw(Printer& at, const Draw& draw) {
   std::string text = fmt::format("    draw {}", word(kDraws, draw.kind));
   if (draw.kind == DrawKind::direct)
     text += fmt::format(" {} instances {}", print_expr(at.program, draw.vertices), print_expr(at.program, draw.instances));
+  if (draw.first.valid()) text += " first " + print_expr(at.program, draw.first);
+  if (draw.offset.valid()) text += " offset " + print_expr(at.program, draw.offset);
+  if (draw.indices != kAll) text += " indices " + index_text(draw.indices);
   if (draw.arguments != kAll)
     text += fmt::format(" {} max {} stride {}{}", index_text(draw.arguments), draw.max_draws, draw.stride, draw.indexed ? " indexed" : "");
   if (draw.counts != kAll) text += " count " + index_text(draw.counts);
   if (draw.per_draw.valid()) text += " per_draw " + at.program.structs[draw.per_draw].name;
-  for (const StructId vertex : draw.vertex) text += " vertex " + at.program.structs[vertex].name;
+  for (const VertexInput& vertex : draw.vertex) {
+    text += (vertex.per_instance ? " instance " : " vertex ") + at.program.structs[vertex.type].name;
+    if (vertex.buffer != kAll) text += " from " + index_text(vertex.buffer);
+  }
   at.line("{}", text);
 }
 

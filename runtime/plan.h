@@ -230,6 +230,7 @@ struct ColorBlend {
   BlendOp op_alpha = BlendOp::add;
 };
 struct VertexAttribute { uint32_t location = 0, binding = 0, offset = 0; Format format = Format::undefined; };
+struct VertexBuffer { Ref ref = {}; Index offset = kNone; };  // Expr, bytes; kNone: 0
 struct VertexBinding { uint32_t stride = 0; bool per_instance = false; };
 struct RasterState {
   uint8_t cull = 0;        // VkCullModeFlags
@@ -287,15 +288,21 @@ struct Params {  // a block in the per-frame ring, dynamic offset
 enum class PassKind : uint8_t { raster, compute, transfer, host };
 enum class WorkKind : uint8_t {  // what the executor records for the pass, after rendering, pipeline and set are bound
   none, host, draw, draw_indirect, draw_indexed_indirect, draw_indirect_count, draw_indexed_indirect_count, dispatch, dispatch_indirect, transfers,
+  draw_indexed,
 };
 struct Work {
   WorkKind kind = WorkKind::none;
-  Index x = kNone, y = kNone, z = kNone;  // Expr: dispatch groups | vertices, instances
+  Index x = kNone, y = kNone, z = kNone;  // Expr: dispatch groups | vertices or indices, instances
   Ref arguments = {};
   Index arguments_offset = kNone;         // Expr, bytes
   Ref counts = {};
   uint32_t max_draws = 1, stride = 16;
   Index first_transfer = 0, transfer_count = 0;
+  Index first = kNone, vertex_offset = kNone;  // Expr, direct draws: the first vertex or index; added to indices; kNone: 0
+  Index first_vertex_buffer = 0, vertex_buffer_count = 0;  // in Plan::vertex_buffers, bindings from 0 on
+  Ref indices = {};                       // resource kNone: not bound
+  Index indices_offset = kNone;           // Expr, bytes; kNone: 0
+  uint32_t index_bytes = 4;               // 2 or 4
 };
 enum class TransferKind : uint8_t { copy_image, copy_buffer, copy_buffer_to_image, copy_image_to_buffer, blit, clear_color, clear_depth_stencil, fill, update, resolve };
 struct Transfer {
@@ -413,6 +420,7 @@ struct Plan {
   std::span<const Pipeline> pipelines = {};
   std::span<const Index> pipeline_shaders = {};
   std::span<const ColorBlend> blends = {};
+  std::span<const VertexBuffer> vertex_buffers = {};
   std::span<const VertexBinding> vertex_bindings = {};
   std::span<const VertexAttribute> vertex_attributes = {};
   std::span<const Binding> bindings = {};

@@ -193,9 +193,9 @@ struct TableTarget {
 Status add_attachment(const Context& context, Sized& sized, const TableTarget& target, Index index) {
   const Rendering& rendering = target.rendering;
   const Attachment attachment = attachment_in(context.plan.attachments[index], target.part);
-  Result<ViewRef> view = attachment_view(context, sized, rendering, attachment.ref, attachment.range);
+  Result<ViewRef> view = attachment_view(context, sized, rendering, target_of(attachment));
   if (!view) return view.error();
-  Result<ViewRef> resolve = attachment_view(context, sized, rendering, attachment.resolve, attachment.resolve_range);
+  Result<ViewRef> resolve = attachment_view(context, sized, rendering, {attachment.resolve, attachment.resolve_range});
   if (!resolve) return resolve.error();
   target.table.views.push_back(*view);
   target.table.resolve_views.push_back(*resolve);

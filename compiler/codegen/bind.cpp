@@ -8,6 +8,7 @@
 #include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/check_macro.h"
+#include "dsl/format_table.h"
 #include "dsl/layout.h"
 
 namespace rg::compiler {
@@ -114,8 +115,7 @@ uint32_t attribute_stride(const dsl::Type& type, bool scalar) {
 
 // One location a column of each array element, as GLSL counts them.
 void add_attributes(PlanData& plan, const dsl::Field& field, bool scalar, uint32_t binding, uint32_t& location) {
-  const uint32_t columns = field.type.columns * std::max(field.type.count, 1u);
-  const uint32_t stride = scalar ? 4u * field.type.rows : field.type.count > 0 && field.type.columns == 1 && field.type.rows == 3 ? 16 : column_bytes(field.type);
+  const uint32_t columns = field.type.columns * std::max(field.type.count, 1u), stride = attribute_stride(field.type, scalar);
   for (uint32_t i = 0; i < columns; ++i)
     plan.vertex_attributes.push_back({location++, binding, field.offset430 + i * stride, vertex_format(field.type)});
 }
@@ -125,8 +125,8 @@ void add_vertex_input(PlanData& plan, Pipeline& pipeline, const dsl::Program& pr
   pipeline.first_vertex_attribute = static_cast<Index>(plan.vertex_attributes.size());
   uint32_t location = 0;
   for (uint32_t binding = 0; binding < pass.draw.vertex.size(); ++binding) {
-    const dsl::Struct& record = program.structs[pass.draw.vertex[binding]];
-    plan.vertex_bindings.push_back({record.size430, false});
+    const dsl::Struct& record = program.structs[pass.draw.vertex[binding].type];
+    plan.vertex_bindings.push_back({record.size430, pass.draw.vertex[binding].per_instance});
     for (const dsl::Field& field : record.fields) add_attributes(plan, field, dsl::is_scalar(record), binding, location);
   }
   pipeline.vertex_binding_count = static_cast<uint32_t>(plan.vertex_bindings.size()) - pipeline.first_vertex_binding;

@@ -45,7 +45,8 @@ constexpr const char* kWorkKinds[] = {"none",
                                       "draw_indexed_indirect_count",
                                       "dispatch",
                                       "dispatch_indirect",
-                                      "transfers"};
+                                      "transfers",
+                                      "draw_indexed"};
 constexpr const char* kTransferKinds[] = {"copy_image", "copy_buffer", "copy_buffer_to_image", "copy_image_to_buffer",
                                           "blit",       "clear_color", "clear_depth_stencil",  "fill",
                                           "update",     "resolve"};

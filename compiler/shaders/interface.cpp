@@ -180,8 +180,8 @@ uint32_t locations_of(const dsl::Type& type) { return type.columns * std::max(ty
 
 void add_vertex_inputs(const dsl::Program& program, const dsl::Pass& pass, Prelude& prelude) {
   uint32_t location = 0;
-  for (const dsl::StructId id : pass.draw.vertex) {
-    for (const dsl::Field& field : program.structs[id].fields) {
+  for (const dsl::VertexInput& input : pass.draw.vertex) {
+    for (const dsl::Field& field : program.structs[input.type].fields) {
       prelude.push_back(
           {"layout(location = " + std::to_string(location) + ") in " + glsl_variable(program, field.type, field.name) + ";", field.span});
       location += locations_of(field.type);

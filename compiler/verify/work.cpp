@@ -143,6 +143,39 @@ void check_clears(const Work& work, const Rendering& rendering) {
   }
 }
 
+bool same_value(const Work& work, Index planned, dsl::ExprId declared, int64_t otherwise) {
+  const int64_t wanted = declared.valid() ? dsl::evaluate(work.model.input->program, declared, work.extents) : otherwise;
+  if (planned != kNone && planned >= work.model.input->plan.exprs.size()) return false;
+  return (planned == kNone ? otherwise : evaluate(work.model.input->plan.exprs, planned, work.extents)) == wanted;
+}
+
+// VkBuffer and offset of a binding.
+bool same_buffer(const Work& work, Ref ref, Index offset, uint32_t access) {
+  if (!names_access(work, ref, access)) return false;
+  return access >= work.pass.accesses.size() || same_value(work, offset, work.pass.accesses[access].range.offset, 0);
+}
+
+void check_draw(const Work& work) {
+  const dsl::Draw& declared = work.pass.draw;
+  const rg::Work& planned = work.plan.work;
+  if (planned.kind == WorkKind::host || work.pass.kind != dsl::PassKind::raster) return;
+  if (declared.kind == dsl::DrawKind::direct) {
+    if (planned.kind != (declared.indexed ? WorkKind::draw_indexed : WorkKind::draw)) report_work(work, dsl::kAll, "the plan draws in another way than declared");
+    if (!same_value(work, planned.x, declared.vertices, 1) || !same_value(work, planned.y, declared.instances, 1) ||
+        !same_value(work, planned.first, declared.first, 0) || !same_value(work, planned.vertex_offset, declared.offset, 0))
+      report_work(work, dsl::kAll, "the plan draws other vertices than declared");
+  }
+  if (!same_buffer(work, planned.indices, planned.indices_offset, declared.indices))
+    report_work(work, declared.indices, "the plan takes its indices from elsewhere");
+  const auto& buffers = work.model.input->plan.vertex_buffers;
+  const bool inside = uint64_t{planned.first_vertex_buffer} + planned.vertex_buffer_count <= buffers.size();
+  if (!inside || planned.vertex_buffer_count != declared.vertex.size())
+    return report_work(work, dsl::kAll, "the plan binds another number of vertex buffers than declared");
+  for (uint32_t i = 0; i < planned.vertex_buffer_count; ++i)
+    if (!same_buffer(work, buffers[planned.first_vertex_buffer + i].ref, buffers[planned.first_vertex_buffer + i].offset, declared.vertex[i].buffer))
+      report_work(work, declared.vertex[i].buffer, "the plan takes its vertices from elsewhere");
+}
+
 void check_arguments(const Work& work) {
   const bool draws = work.pass.draw.kind == dsl::DrawKind::indirect || work.pass.draw.kind == dsl::DrawKind::indirect_count;
   const bool dispatches = work.pass.dispatch.kind == dsl::DispatchKind::indirect;
@@ -160,6 +193,7 @@ void check_work(const Model& model, const std::vector<int64_t>& extents, Report&
     const Work work{model, extents, report, model.input->plan.passes[node.plan_pass], model.pass(node.plan_pass)};
     if (work.pass.kind == dsl::PassKind::transfer) check_transfers(work);
     check_arguments(work);
+    check_draw(work);
     if (work.plan.rendering == kNone) continue;
     if (node.last_in_rendering)
       check_resolves(work, model.input->plan.renderings[work.plan.rendering]);

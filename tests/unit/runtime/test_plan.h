@@ -35,6 +35,7 @@ struct TestPlan {
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;
   std::vector<Attachment> attachments;
+  std::vector<VertexBuffer> vertex_buffers;
   std::vector<ShaderModule> shaders;
   std::vector<Pipeline> pipelines;
   std::vector<Index> pipeline_shaders;
@@ -126,7 +127,7 @@ struct TestPlan {
     plan.groups = groups, plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
     plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_clocks = alias_clocks, plan.passes = passes,
     plan.accesses = accesses;
-    plan.renderings = renderings, plan.attachments = attachments, plan.shaders = shaders, plan.pipelines = pipelines,
+    plan.renderings = renderings, plan.attachments = attachments, plan.vertex_buffers = vertex_buffers, plan.shaders = shaders, plan.pipelines = pipelines,
     plan.pipeline_shaders = pipeline_shaders;
     plan.bindings = bindings, plan.samplers = samplers, plan.params = params, plan.pass_params = pass_params, plan.transfers = transfers;
     plan.mip_limits = mip_limits, plan.conditions = conditions, plan.waits = waits, plan.signals = signals;
