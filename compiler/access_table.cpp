@@ -68,7 +68,8 @@ Layout layout_for_aspect(Layout layout, uint32_t aspect) {
 bool loads(const dsl::Access& access) { return access.role == Role::color && (access.blend.enabled || !access.clear); }
 
 bool covers(const dsl::Pass& pass, const dsl::Access& access) {
-  return access.covers || (pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && !access.blend.enabled);
+  const bool fills = pass.draw.kind == dsl::DrawKind::fullscreen && access.mode == Mode::write;  // tests may leave holes
+  return access.covers || (fills && access.role == Role::color && !access.blend.enabled);
 }
 
 Effect pick(const Row& row, Stages stages, bool reads, bool writes, uint32_t aspect) {

@@ -282,6 +282,7 @@ const char* suffix_of(Role role) {
 }  // namespace
 
 bool is_shader_role(Role role) { return role == Role::sampled || role == Role::storage || role == Role::uniform || role == Role::input; }
+bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
 bool is_written(Mode mode) { return mode != Mode::read; }
 
 std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const AccessStatement& statement) {

@@ -84,7 +84,10 @@ bool of_pass(Role role, PassKind kind) {
   }
 }
 
-bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
+std::optional<int64_t> known(const Rules& rules, ExprId id) {
+  if (!id.valid() || rules.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
+  return rules.checker.program.exprs[id].value;
+}
 
 bool check_role(const Rules& rules, const Access& access) {
   const Resource& resource = rules.resource(access);

@@ -340,7 +340,21 @@ bool may_leave(const Builder& at, const Access& access) {
   return (pass.kind == PassKind::raster && !at.fullscreen) || pass.dispatch.kind == DispatchKind::indirect;
 }
 
+// Tests that fragments may fail.
+bool may_reject(const Builder& at) {
+  const Pass& pass = at.out.pass;
+  if (!pass.state.valid()) return false;
+  const State& state = at.checker.program.states[pass.state];
+  const auto has = [&](uint32_t aspect) {
+    return std::any_of(pass.accesses.begin(), pass.accesses.end(),
+                       [&](const Access& access) { return is_attachment(access.role) && (access.range.aspects & aspect) != 0; });
+  };
+  const bool stencil = state.stencil_front.compare != Compare::always || state.stencil_back.compare != Compare::always;
+  return (state.depth_test && state.depth_compare != Compare::always && has(aspect_depth)) || (state.stencil_test && stencil && has(aspect_stencil));
+}
+
 void settle_modes(Builder& at) {
+  const bool fills = at.fullscreen && !may_reject(at);
   for (Access& access : at.out.pass.accesses) {
     const bool covered = at.fullscreen && access.role == Role::color && !access.blend.enabled && access.mode == Mode::update;
     if (covered) access.mode = Mode::write, access.covers = true;

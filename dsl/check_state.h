@@ -249,6 +249,7 @@ void merge_reads_and_writes(Pass& pass);
 bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
 void name_hidden_accesses(Pass& pass);
 bool is_shader_role(Role role);
+bool is_attachment(Role role);
 bool is_written(Mode mode);
 
 // ---- check_control.cpp ------------------------------------------------------------------------------------------

@@ -103,7 +103,10 @@ StateDeclaration parse_state(Parser& parser) {
                                    {"depth", "write", 1, 0},
                                    {"bias", "", 0, 2},
                                    {"topology", "", 1, 0},
-                                   {"alpha_to_coverage", "", 0, 0}},
+                                   {"alpha_to_coverage", "", 0, 0},
+                                   RG_STENCIL("stencil"),
+                                   RG_STENCIL("stencil_front"),
+                                   RG_STENCIL("stencil_back")},
                                   "a state");
   return state;
 }

@@ -26,6 +26,7 @@ constexpr const char* kCompares[] = {"never", "less", "equal", "less_equal", "gr
 constexpr const char* kFilters[] = {"nearest", "linear"};
 constexpr const char* kAddresses[] = {"repeat", "mirror", "clamp", "border"};
 constexpr const char* kCulls[] = {"none", "front", "back"};
+constexpr const char* kStencilOps[] = {"keep", "zero", "replace", "increment", "decrement", "invert", "increment_wrap", "decrement_wrap"};
 constexpr const char* kTopologies[] = {"points", "lines", "triangles", "triangle_strip"};
 constexpr const char* kBlendOps[] = {"add", "subtract", "reverse_subtract", "min", "max"};
 constexpr const char* kFactors[] = {"zero",      "one",
@@ -92,11 +93,19 @@ void print_sampler(Printer& at, const Sampler& sampler) {
           sampler.max_anisotropy > 0 ? fmt::format(" anisotropy {}", sampler.max_anisotropy) : "");
 }
 
+std::string stencil_text(const StencilFace& face) {
+  return fmt::format("test {} fail {} depth_fail {} pass {} masks {} {} reference {}", word(kCompares, face.compare), word(kStencilOps, face.fail),
+                     word(kStencilOps, face.depth_fail), word(kStencilOps, face.pass), face.read_mask, face.write_mask, face.reference);
+}
+
 void print_state(Printer& at, const State& state) {
   at.line("state {} cull {} front {} depth test {} write {} bias {} {} topology {}{}", state.name, word(kCulls, state.cull),
           state.front_clockwise ? "clockwise" : "counter_clockwise", state.depth_test ? word(kCompares, state.depth_compare) : "off",
           state.depth_write ? "on" : "off", state.depth_bias_constant, state.depth_bias_slope, word(kTopologies, state.topology),
           state.alpha_to_coverage ? " alpha_to_coverage" : "");
+  if (!state.stencil_test) return;
+  at.line("  stencil front {}", stencil_text(state.stencil_front));
+  at.line("  stencil back {}", stencil_text(state.stencil_back));
 }
 
 std::string shape_text(const Program& program, const Resource& resource) {

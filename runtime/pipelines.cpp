@@ -133,6 +133,11 @@ void fill_vertex_input(const Plan& plan, const Pipeline& pipeline, GraphicsState
   state.tessellation.patchControlPoints = 3;
 }
 
+VkStencilOpState stencil_state(const StencilFace& face) {
+  return {static_cast<VkStencilOp>(face.fail), static_cast<VkStencilOp>(face.pass), static_cast<VkStencilOp>(face.depth_fail),
+          static_cast<VkCompareOp>(face.compare), face.read_mask, face.write_mask, face.reference};
+}
+
 void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
   const RasterState& in = pipeline.raster;
   state.viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
@@ -151,6 +156,9 @@ void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsS
   state.depth.depthTestEnable = in.depth_test ? VK_TRUE : VK_FALSE;
   state.depth.depthWriteEnable = in.depth_write ? VK_TRUE : VK_FALSE;
   state.depth.depthCompareOp = static_cast<VkCompareOp>(in.depth_compare);
+  state.depth.stencilTestEnable = in.stencil_test ? VK_TRUE : VK_FALSE;
+  state.depth.front = stencil_state(in.stencil_front);
+  state.depth.back = stencil_state(in.stencil_back);
 }
 
 void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {

@@ -232,6 +232,12 @@ struct ColorBlend {
 struct VertexAttribute { uint32_t location = 0, binding = 0, offset = 0; Format format = Format::undefined; };
 struct VertexBuffer { Ref ref = {}; Index offset = kNone; };  // Expr, bytes; kNone: 0
 struct VertexBinding { uint32_t stride = 0; bool per_instance = false; };
+enum class StencilOp : uint8_t { keep, zero, replace, increment, decrement, invert, increment_wrap, decrement_wrap };  // VkStencilOp
+struct StencilFace {
+  StencilOp fail = StencilOp::keep, pass = StencilOp::keep, depth_fail = StencilOp::keep;
+  Compare compare = Compare::always;
+  uint32_t read_mask = 0, write_mask = 0, reference = 0;
+};
 struct RasterState {
   uint8_t cull = 0;        // VkCullModeFlags
   bool front_clockwise = false;
@@ -240,6 +246,8 @@ struct RasterState {
   float depth_bias_constant = 0, depth_bias_slope = 0;
   uint8_t topology = 3;    // VkPrimitiveTopology
   bool alpha_to_coverage = false;
+  bool stencil_test = false;
+  StencilFace stencil_front = {}, stencil_back = {};
 };
 // A pipeline the runtime builds. Attachment formats and samples come from the pass's Rendering.
 struct Pipeline {

@@ -76,8 +76,9 @@ RG_PLAN_ROW(ColorBlend, enabled, src, dst, op, src_alpha, dst_alpha, op_alpha);
 RG_PLAN_ROW(VertexAttribute, location, binding, offset, format);
 RG_PLAN_ROW(VertexBuffer, ref, offset);
 RG_PLAN_ROW(VertexBinding, stride, per_instance);
+RG_PLAN_ROW(StencilFace, fail, pass, depth_fail, compare, read_mask, write_mask, reference);
 RG_PLAN_ROW(RasterState, cull, front_clockwise, depth_test, depth_write, depth_compare, depth_bias_constant, depth_bias_slope, topology,
-            alpha_to_coverage);
+            alpha_to_coverage, stencil_test, stencil_front, stencil_back);
 RG_PLAN_ROW(Pipeline, name, pass, first_shader, shader_count, raster, first_blend, blend_count, first_vertex_binding, vertex_binding_count,
             first_vertex_attribute, vertex_attribute_count);
 RG_PLAN_ROW(Binding, binding, type, stages, ref, range, bytes, view, arrayed, view_format, layout, sampler, params);

@@ -61,9 +61,14 @@ uint8_t convert(dsl::Topology topology) {
   return 3;
 }
 
-bool may_write_depth(const dsl::Pass& pass) {
+bool may_write(const dsl::Pass& pass, dsl::Role role) {
   return std::any_of(pass.accesses.begin(), pass.accesses.end(),
-                     [](const dsl::Access& access) { return access.role == dsl::Role::depth && access.mode != dsl::Mode::read; });
+                     [&](const dsl::Access& access) { return access.role == role && access.mode != dsl::Mode::read; });
+}
+
+StencilFace convert(const dsl::StencilFace& face, bool writes) {
+  const auto op = [](dsl::StencilOp each) { return static_cast<StencilOp>(each); };  // in one order
+  return {op(face.fail), op(face.pass), op(face.depth_fail), static_cast<Compare>(face.compare), face.read_mask, writes ? face.write_mask : 0u, face.reference};
 }
 
 RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
@@ -73,12 +78,16 @@ RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
   raster.cull = is_fullscreen(pass) ? 0 : static_cast<uint8_t>(state.cull);
   raster.front_clockwise = state.front_clockwise;
   raster.depth_test = state.depth_test;
-  raster.depth_write = state.depth_write && state.depth_test && may_write_depth(pass);
+  raster.depth_write = state.depth_write && state.depth_test && may_write(pass, dsl::Role::depth);
   raster.depth_compare = static_cast<Compare>(state.depth_compare);
   raster.depth_bias_constant = state.depth_bias_constant;
   raster.depth_bias_slope = state.depth_bias_slope;
   raster.topology = is_fullscreen(pass) ? convert(dsl::Topology::triangles) : convert(state.topology);
   raster.alpha_to_coverage = state.alpha_to_coverage;
+  raster.stencil_test = state.stencil_test;
+  if (!state.stencil_test) return raster;
+  raster.stencil_front = convert(state.stencil_front, may_write(pass, dsl::Role::stencil));
+  raster.stencil_back = convert(state.stencil_back, may_write(pass, dsl::Role::stencil));
   return raster;
 }
 
