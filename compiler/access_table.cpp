@@ -150,14 +150,14 @@ uint32_t default_aspects(Role role, uint32_t format_aspects) {
 }
 
 bool defines_range(const dsl::Pass& pass, const dsl::Access& access) {
-  if (access.clear) return true;
-  if (is_attachment(access.role)) return access.mode != Mode::read && covers(pass, access);
+  if (access.clear) return !is_slice(access);
+  if (is_attachment(access.role)) return access.mode != Mode::read && covers(pass, access) && !is_slice(access);
   return access.mode == Mode::write && !access.disjoint;
 }
 
 bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   if (access.mode == Mode::read || access.mode == Mode::atomic) return true;
-  if (access.clear) return false;
+  if (access.clear) return is_slice(access);
   return access.mode == Mode::update || access.disjoint || (is_attachment(access.role) && (access.blend.enabled || !covers(pass, access)));
 }
 

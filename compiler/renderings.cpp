@@ -6,7 +6,6 @@
 #include <array>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 #include "compiler/schedule_problem.h"
 
@@ -15,8 +14,8 @@ namespace {
 
 constexpr size_t kMostBetween = 4096;  // passes looked at for a way around a rendering
 
-// What passes of one rendering have in common: role, resource, age, view, aspects, mip, layers of each attachment, in order.
-using Key = std::vector<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>>;
+// What passes of one rendering have in common: role, views, resource, age, format, aspects, mip, layers, slices of each attachment, in order.
+using Key = std::vector<std::array<uint32_t, 11>>;
 
 Key key_of(const Frame& frame, const dsl::Pass& pass) {
   Key key;

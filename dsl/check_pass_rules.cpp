@@ -158,14 +158,36 @@ void check_mips(const Rules& rules, const Access& access) {
       .note(DiagnosticKind::DeclaredHere, image.span, {image.name});
 }
 
+void check_slices(const Rules& rules, const Access& access) {
+  const Resource& image = rules.resource(access);
+  if (is_slice(access) && !is_attachment(access.role))
+    return void(rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"slice", word_of(access.role)}));
+  const uint32_t depth = is_slice(access) ? least_depth(rules.checker.program, image, access.range.mip) : kAll;
+  if (is_slice(access) && access.range.slice + access.range.slices > depth)  // `.slice(3).mip(1)`
+    rules.checker.report(DiagnosticKind::NoSuchSubresource, access.span,
+                         {image.name, std::to_string(depth), "slices", std::to_string(access.range.slice + access.range.slices - 1)});
+  if (!is_attachment(access.role) || image.dimension != Dimension::d3 || is_slice(access) || known(rules, image.depth)) return;
+  rules.checker.report(DiagnosticKind::SlicesNeeded, access.span, {image.name}).note(DiagnosticKind::DeclaredHere, image.span, {image.name});
+}
+
 void check_image_use(const Rules& rules, const Access& access) {
   const FormatInfo& format = info(seen_format(rules.resource(access), access));
   const bool in_shader = access.role == Role::sampled || access.role == Role::storage;
-  if (access.view != Format::none && !in_shader) rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"view", word_of(access.role)});
+  const bool viewed = in_shader || access.role == Role::color;
+  if (access.view != Format::none && !viewed) rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"view", word_of(access.role)});
   if (is_attachment(access.role)) check_attachment_format(rules, access, format);
   if (access.role == Role::storage) check_storage_format(rules, access, format);
   if (access.role == Role::sampled) check_sampler(rules, access, format);
   check_mips(rules, access);
+  check_slices(rules, access);
+}
+
+// Shaders see texels through a view of the buffer, and the engine may bring another every frame.
+void check_imported_texels(const Rules& rules, const Access& access) {
+  const Resource& buffer = rules.resource(access);
+  if (buffer.kind != ResourceKind::buffer || buffer.format == Format::none || buffer.lifetime != Lifetime::imported) return;
+  rules.checker.report(DiagnosticKind::TexelFormat, access.span, {buffer.name, name(buffer.format), "shaders see what the engine brings through a copy"})
+      .note(DiagnosticKind::DeclaredHere, buffer.span, {buffer.name});
 }
 
 void check_stages(const Rules& rules, const Access& access) {
@@ -189,6 +211,13 @@ std::string size_text(const Rules& rules, const Access& access, const std::vecto
          std::to_string(side(rules, image.height, access.range.mip, extents));
 }
 
+// Layers of the target: those of the image, or slices of a volume.
+uint32_t target_layers(const Rules& rules, const Access& access) {
+  const Resource& image = rules.resource(access);
+  if (image.dimension != Dimension::d3) return layer_count(image, access.range);
+  return is_slice(access) ? access.range.slices : static_cast<uint32_t>(side(rules, image.depth, access.range.mip, initial_extents(rules.checker.program)));
+}
+
 void compare_attachments(const Rules& rules, const Access& first, const Access& other) {
   const Resource &a = rules.resource(first), &b = rules.resource(other);
   const auto report = [&](DiagnosticKind kind, std::string one, std::string two) {
@@ -201,7 +230,7 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
     if (one != two) return report(DiagnosticKind::AttachmentSizes, two, one);
   }
   if (a.samples != b.samples) return report(DiagnosticKind::AttachmentSamples, std::to_string(b.samples), std::to_string(a.samples));
-  const uint32_t one = layer_count(a, first.range), two = layer_count(b, other.range);
+  const uint32_t one = target_layers(rules, first), two = target_layers(rules, other);
   if (one != two) report(DiagnosticKind::AttachmentLayers, std::to_string(two), std::to_string(one));
 }
 

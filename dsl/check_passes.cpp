@@ -356,8 +356,8 @@ bool may_reject(const Builder& at) {
 void settle_modes(Builder& at) {
   const bool fills = at.fullscreen && !may_reject(at);
   for (Access& access : at.out.pass.accesses) {
-    const bool covered = at.fullscreen && access.role == Role::color && !access.blend.enabled && access.mode == Mode::update;
-    if (covered) access.mode = Mode::write, access.covers = true;
+    const bool covered = fills && access.role == Role::color && !access.blend.enabled && access.mode == Mode::update && !access.clear;
+    if (covered) access.mode = is_slice(access) ? Mode::update : Mode::write, access.covers = true;
     if (access.mode == Mode::write && !access.clear && may_leave(at, access)) access.mode = Mode::update;
   }
 }

@@ -217,6 +217,8 @@ bool check_writable(Checker& checker, GraphScope& scope, const Place& place, con
 // Silent probe: whether `expr` begins with the name of a resource.
 bool names_resource(const GraphScope& scope, const ast::Expr& expr);
 Value size_of(Checker& checker, GraphScope& scope, const Place& place);
+// Of a 3D image at every extent.
+uint32_t least_depth(const Program& program, const Resource& image, uint32_t mip);
 uint32_t mip_count(const Resource& resource, const Range& range);
 uint32_t layer_count(const Resource& resource, const Range& range);
 

@@ -166,6 +166,7 @@ void print_access(Printer& at, const Graph& graph, size_t index, const Access& a
   std::string text =
       fmt::format("    a{} {} {}{}", index, word(kModes, access.mode), resource.name, access.age ? fmt::format(".prev({})", access.age) : "");
   text += range_text(at.program, resource, access.range);
+  if (is_slice(access)) text += " slices " + span_text(access.range.slice, access.range.slices);
   if (access.view != Format::none) text += fmt::format(" view {}", name(access.view));
   text += fmt::format(" as {}", word(kRoles, access.role));
   if (access.sampler.valid()) text += fmt::format("({})", at.program.samplers[access.sampler].name);

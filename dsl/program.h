@@ -181,6 +181,7 @@ struct Range {  // of one image or buffer; kAll counts reach to the end
   uint32_t aspects = 0;  // 1 colour, 2 depth, 4 stencil; 0: those of the format
   uint32_t mip = 0, mips = kAll, layer = 0, layers = kAll;
   ExprId offset, size;   // buffer bytes; invalid: whole
+  uint32_t slice = 0, slices = kAll;  // of a 3D image as an attachment; synchronisation knows mips, not slices
   friend bool operator==(const Range&, const Range&) = default;
 };
 
@@ -360,6 +361,9 @@ struct Graph {
   friend bool operator==(const Graph&, const Graph&) = default;
 };
 
+// Whether an attachment leaves part of its mip as it is, whatever it clears or covers.
+inline bool is_slice(const Access& access) { return access.range.slices != kAll; }
+
 // The format in which the pass sees the image.
 inline Format seen_format(const Resource& image, const Access& access) { return access.view == Format::none ? image.format : access.view; }
 
@@ -449,5 +453,6 @@ int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& 
 // The extents' initial (or maximal) values in the form evaluate() takes.
 std::vector<int64_t> initial_extents(const Program& program);
 std::vector<int64_t> maximum_extents(const Program& program);
+std::vector<int64_t> minimum_extents(const Program& program);
 
 }  // namespace rg::dsl

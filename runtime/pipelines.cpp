@@ -281,8 +281,9 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   const Rendering& rendering = context.plan.renderings[pass.rendering];
   out.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   for (const Attachment& attachment : context.plan.attachments.subspan(rendering.first_color, rendering.color_count))
-    out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
-                                                                 : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
+    out.color_formats.push_back(attachment.ref.resource == kNone                      ? VK_FORMAT_UNDEFINED
+                                : attachment.view_format != Format::undefined ? static_cast<VkFormat>(attachment.view_format)
+                                                                              : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
   const Index index = static_cast<Index>(&pass - context.plan.passes.data());
   Result<UniqueRenderPass> render_pass = create_render_pass(context, index, out.part);

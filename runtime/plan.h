@@ -195,6 +195,8 @@ enum class StoreOp : uint8_t { store = 0, dont_care = 1, none = 2 };
 struct Attachment {
   Ref ref = {};
   Range range = {};             // one mip
+  uint32_t slice = 0, slices = 0;  // of a 3D image; 0 slices: no 3D image
+  Format view_format = Format::undefined;  // undefined: the image's own
   Layout layout = Layout::undefined;
   LoadOp load = LoadOp::load;
   StoreOp store = StoreOp::store;

@@ -129,6 +129,9 @@ void check_attachment(const Plan& plan, Index i, Checker& c) {
   const Attachment& attachment = plan.attachments[i];
   if (attachment.ref.resource != kNone) c.ref(attachment.ref, ResourceKind::image, "attachment", i, "image");
   if (attachment.resolve.resource != kNone) c.ref(attachment.resolve, ResourceKind::image, "attachment", i, "resolve");
+  if (!c.ok() || attachment.ref.resource == kNone) return;
+  const bool volume = plan.resources[attachment.ref.resource].dimension == Dimension::d3;
+  c.that((attachment.slices != 0) == volume && attachment.slices <= 65536 && attachment.slice <= 65536, "attachment", i, "slices");
 }
 
 void check_renderings(const Plan& plan, Checker& c) {

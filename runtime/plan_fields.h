@@ -69,7 +69,7 @@ RG_PLAN_ROW(Acquire, resource, group, image_barrier, image_barriers, stages, acc
 RG_PLAN_ROW(Release, resource, stages, accesses, queue, point);
 RG_PLAN_ROW(Boundary, ref, range, stages, accesses, layout, queue, discard, bytes);
 RG_PLAN_ROW(Access, ref, range, bytes, stages, accesses, layout, writes);
-RG_PLAN_ROW(Attachment, ref, range, layout, load, store, clear, resolve, resolve_range, resolve_layout, resolve_mode);
+RG_PLAN_ROW(Attachment, ref, range, slice, slices, view_format, layout, load, store, clear, resolve, resolve_range, resolve_layout, resolve_mode);
 RG_PLAN_ROW(Rendering, first_color, color_count, depth, stencil, width, height, layers, view_mask, samples);
 RG_PLAN_ROW(ShaderModule, name, stage, words);
 RG_PLAN_ROW(ColorBlend, enabled, src, dst, op, src_alpha, dst_alpha, op_alpha);

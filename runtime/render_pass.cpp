@@ -34,10 +34,10 @@ VkAttachmentReference2 reference(uint32_t attachment, Layout layout, VkImageAspe
   return out;
 }
 
-VkAttachmentDescription2 description(const Context& context, Ref ref, Layout layout) {
+VkAttachmentDescription2 description(const Context& context, Ref ref, Layout layout, Format view_format = Format::undefined) {
   VkAttachmentDescription2 out{};
   out.sType = VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2;
-  out.format = static_cast<VkFormat>(context.plan.resources[ref.resource].format);
+  out.format = static_cast<VkFormat>(view_format != Format::undefined ? view_format : context.plan.resources[ref.resource].format);
   out.samples = static_cast<VkSampleCountFlagBits>(context.plan.resources[ref.resource].samples);
   out.loadOp = out.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   out.storeOp = out.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -58,7 +58,7 @@ void add_color(const Context& context, const Attachment& attachment, RenderPassS
     shape.colors.push_back(reference(VK_ATTACHMENT_UNUSED, Layout::undefined, 0));
     return;
   }
-  VkAttachmentDescription2 color = description(context, attachment.ref, attachment.layout);
+  VkAttachmentDescription2 color = description(context, attachment.ref, attachment.layout, attachment.view_format);
   color.loadOp = load_op(context.device, attachment.load);
   color.storeOp = store_op(attachment.store);
   shape.colors.push_back(reference(static_cast<uint32_t>(shape.descriptions.size()), attachment.layout, VK_IMAGE_ASPECT_COLOR_BIT));

@@ -86,8 +86,9 @@ std::string descriptor_text(DescriptorType type) {
 void PlanEmitter::rendering() {
   table("Attachment", "kAttachments", plan_.attachments, [&](const Attachment& a, size_t) {
     Row row;
-    row.nested("ref", ref(a.ref)).nested("range", range(a.range)).field("layout", layout_text(a.layout));
-    row.field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
+    row.nested("ref", ref(a.ref)).nested("range", range(a.range)).number("slice", a.slice).number("slices", a.slices);
+    if (a.view_format != Format::undefined) row.field("view_format", format_text(a.view_format));
+    row.field("layout", layout_text(a.layout)).field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
     row.field("store", enum_text("StoreOp", static_cast<size_t>(a.store), {"store", "dont_care", "none"})).nested("clear", clear_value(a.clear));
     if (a.resolve.resource == kNone) return row;
     row.nested("resolve", ref(a.resolve)).nested("resolve_range", range(a.resolve_range)).field("resolve_layout", layout_text(a.resolve_layout));

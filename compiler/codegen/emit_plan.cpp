@@ -172,7 +172,12 @@ Row work_row(const Work& work, const Row& arguments, const Row& counts, const Ro
   row.nested("arguments", arguments);
   index(row, "arguments_offset", work.arguments_offset);
   row.nested("counts", counts).number("max_draws", work.max_draws, 1).number("stride", work.stride, 16);
-  return slice(row, "first_transfer", work.first_transfer, "transfer_count", work.transfer_count);
+  slice(row, "first_transfer", work.first_transfer, "transfer_count", work.transfer_count);
+  index(row, "first", work.first);
+  index(row, "vertex_offset", work.vertex_offset);
+  slice(row, "first_vertex_buffer", work.first_vertex_buffer, "vertex_buffer_count", work.vertex_buffer_count);
+  row.nested("indices", indices);
+  return index(row, "indices_offset", work.indices_offset).number("index_bytes", work.index_bytes, 4);
 }
 
 }  // namespace

@@ -167,7 +167,7 @@ bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   if (!is_attachment(access.role)) return access.mode == Mode::update;
   const bool fullscreen = pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && access.mode == Mode::write;
   const bool covered = (access.covers || fullscreen) && !access.blend.enabled;
-  return !access.clear && !covered;
+  return is_slice(access) || (!access.clear && !covered);
 }
 
 bool commutes(const dsl::Access& access) { return access.mode == Mode::atomic || (access.disjoint && access.mode != Mode::read); }

@@ -170,7 +170,7 @@ void add_outputs(const dsl::Graph& graph, const dsl::Pass& pass, Prelude& prelud
   uint32_t location = 0;
   for (const dsl::Access& access : pass.accesses) {
     if (access.role != dsl::Role::color) continue;
-    const char kind = texel_kind(graph.resources[access.resource].format, 1);
+    const char kind = texel_kind(dsl::seen_format(graph.resources[access.resource], access), 1);
     const std::string type = (kind == 'f' ? "" : std::string(1, kind)) + "vec4 ";
     prelude.push_back({"layout(location = " + std::to_string(location++) + ") out " + type + access.name + ";", access.span});
   }

@@ -200,6 +200,7 @@ void check_work(const Model& model, const std::vector<int64_t>& extents, Report&
     else if (declares_resolve(work.pass))  // it would come after the last pass
       report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
     check_clears(work, model.input->plan.renderings[work.plan.rendering]);
+    check_targets(work, model.input->plan.renderings[work.plan.rendering]);
   }
 }
 
