@@ -128,6 +128,8 @@ std::vector<Capability> needs_of(const dsl::Program& program, dsl::GraphId graph
     const dsl::Feature& feature = program.features.rows[f];
     if (of_plans[f] && feature.capability != dsl::Capability::none && configuration[f] == 1) needs.push_back(plan_capability(feature.capability));
   }
+  const bool views = std::any_of(renderings.begin(), renderings.end(), [](const Rendering& rendering) { return rendering.view_mask != 0; });
+  if (views && std::find(needs.begin(), needs.end(), Capability::multiview) == needs.end()) needs.push_back(Capability::multiview);
   return needs;
 }
 

@@ -145,6 +145,7 @@ void emit_rendering(const PlanParts& parts, const PlanIndices& indices, size_t p
     if (slot == Slot::depth) rendering.depth = index;
     if (slot == Slot::stencil) rendering.stencil = index;
   }
+  if (pass.multiview) rendering.view_mask = (1u << rendering.layers) - 1;
   row.rendering = static_cast<Index>(plan.renderings.size());
   plan.renderings.push_back(rendering);
 }

@@ -219,6 +219,7 @@ void judge_pass(Judge& at, const dsl::Pass& pass) {
       keep_within(at, "maxUniformBufferRange", static_cast<double>(dsl::evaluate(at.program, resource.count, at.extents)) * resource.stride,
                   "the size in bytes of uniform " + quoted("buffer", resource.name), access.span);
   }
+  if (pass.multiview) need(at, "multiview", quoted("pass", pass.name), pass.span, "without it, draw each layer in a pass of its own");
   judge_stages(at, pass);
   judge_draw(at, pass);
   judge_attachments(at, pass);

@@ -254,7 +254,7 @@ struct ParamsStatement {
   Boxed<Expr> type;
   Span span;
 };
-struct WordStatement {  // state NAME, bind NAME, after PASS, with BUNDLE, keep
+struct WordStatement {  // state NAME, bind NAME, after PASS, with BUNDLE, keep, multiview
   Name word;
   Boxed<Expr> value;
   Span span;

@@ -234,6 +234,31 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
   if (one != two) report(DiagnosticKind::AttachmentLayers, std::to_string(two), std::to_string(one));
 }
 
+// Vulkan 1.3 promises six views; views of volumes are no arrays; other stages would need features of their own.
+const char* multiview_fault(const Rules& rules) {
+  constexpr uint32_t kMostViews = 6;
+  const auto first = std::find_if(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return is_attachment(access.role); });
+  if (first == rules.pass.accesses.end()) return "views are layers of attachments, and it has none";
+  if (rules.resource(*first).dimension == Dimension::d3) return "slices of volumes are no views";
+  if (layer_count(rules.resource(*first), first->range) > kMostViews) return "not every device has more than six";
+  const bool plain = std::all_of(rules.pass.shaders.begin(), rules.pass.shaders.end(),
+                                 [](const Shader& shader) { return shader.stage == stage_vertex || shader.stage == stage_fragment; });
+  return plain ? nullptr : "views take vertex and fragment shaders";
+}
+
+void check_multiview(const Rules& rules) {
+  if (!rules.pass.multiview) return;
+  if (const char* fault = multiview_fault(rules)) rules.checker.report(DiagnosticKind::MultiviewOfPass, rules.pass.span, {rules.pass.name, fault});
+}
+
+void check_state(const Rules& rules) {
+  if (!rules.pass.state.valid()) return;
+  const State& state = rules.checker.program.states[rules.pass.state];
+  const bool has = std::any_of(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return access.role == Role::stencil; });
+  if (state.stencil_test && !has)
+    rules.checker.report(DiagnosticKind::StencilMissing, rules.pass.span, {rules.pass.name, state.name}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});
+}
+
 void check_attachments(const Rules& rules) {
   const Access* first = nullptr;
   size_t colors = 0;
@@ -321,6 +346,8 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
   }
   if (!roles_fit) return;
   check_attachments(rules);
+  check_state(rules);
+  check_multiview(rules);
   check_conflicts(rules);
   check_names(rules);
 }

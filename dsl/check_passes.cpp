@@ -245,6 +245,12 @@ void read_state(Builder& at, const ast::WordStatement& node) {
   at.out.pass.state = state_of(at.checker, *symbol);
 }
 
+void read_multiview(Builder& at, const ast::WordStatement& node) {
+  if (at.out.pass.kind != PassKind::raster) return fail(at, DiagnosticKind::MultiviewOfPass, node.span, {at.out.pass.name, "it is no raster pass"});
+  if (at.out.pass.multiview) return fail(at, DiagnosticKind::RepeatedWork, node.span, {"multiview"});
+  at.out.pass.multiview = true;
+}
+
 void visit_all(Builder& at, const std::vector<ast::Statement>& statements);
 
 // `with world`: the statements of the bundle, as if they stood here.
@@ -275,6 +281,7 @@ void read_bundle(Builder& at, const ast::Expr& value) {
 
 void visit(Builder& at, const ast::WordStatement& node) {
   if (node.word.text == "keep") return void(at.out.pass.keep = true);
+  if (node.word.text == "multiview") return read_multiview(at, node);
   if (!node.value || node.value->kind == ast::ExprKind::error) return void(at.out.dropped = true);
   if (node.word.text == "after") return read_after(at, *node.value);
   if (node.word.text == "state") return read_state(at, node);

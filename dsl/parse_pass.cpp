@@ -223,7 +223,7 @@ ast::WordStatement parse_word_statement(Parser& parser) {
   ast::WordStatement statement;
   const uint32_t begin = parser.peek().begin;
   statement.word = parser.take_name();
-  if (statement.word.text != "keep") statement.value = parse_place(parser, "a name");
+  if (statement.word.text != "keep" && statement.word.text != "multiview") statement.value = parse_place(parser, "a name");
   statement.span = parser.since(begin);
   complain_about_rest(parser, {});
   return statement;

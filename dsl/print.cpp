@@ -223,6 +223,7 @@ std::string heading(const Program& program, const Graph& graph, const Pass& pass
   if (!pass.bind.empty()) text += " bind " + pass.bind;
   for (const PassId other : pass.after) text += " after " + graph.passes[other].name;
   if (pass.keep) text += " keep";
+  if (pass.multiview) text += " multiview";
   for (const ConditionId condition : pass.conditions) text += " if host " + program.conditions[condition].name;
   for (const MipLimit& limit : pass.mip_limits) text += fmt::format(" needs {}.mip({})", graph.resources[limit.image].name, limit.mip);
   return text + guard_text(program, pass.guard);

@@ -306,6 +306,7 @@ struct Pass {
   std::string bind;        // `bind engine.materials`: a set the engine owns, set 0 or 2 by declaration
   std::vector<PassId> after;
   bool keep = false;       // never culled
+  bool multiview = false;  // raster: each layer of the attachments is a view, drawn at once
   Guard guard;
   std::vector<ConditionId> conditions;  // latched host conditions, all must hold
   std::vector<MipLimit> mip_limits;

@@ -386,7 +386,8 @@ enum class Capability : uint8_t {
   depth_bounds,
   conservative_rasterization,
   barycentrics,
-  sample_locations
+  sample_locations,
+  multiview
 };
 struct Feature {  // that shaders are chosen by, or passes run by
   std::string_view name = {};

@@ -1,6 +1,7 @@
 #include "runtime/plan_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -145,6 +146,7 @@ void check_renderings(const Plan& plan, Checker& c) {
     }
     c.expr(rendering.width, "rendering", i, "width");
     c.expr(rendering.height, "rendering", i, "height");
+    c.that(rendering.view_mask == 0 || std::bit_width(rendering.view_mask) <= rendering.layers, "rendering", i, "more views than layers");
     c.that(rendering.layers >= 1 && rendering.samples >= 1, "rendering", i, "layers or samples");
   }
   for (Index i = 0; i < plan.attachments.size(); ++i) check_attachment(plan, i, c);

@@ -163,11 +163,20 @@ VkImageUsageFlags attachment_usage(const Context& context, Ref ref) {
   return color ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
 }
 
-Result<ViewRef> attachment_view(const Context& context, Sized& sized, const Rendering& rendering, Ref ref, Range range) {
-  if (ref.resource == kNone) return ViewRef{};
-  range.mips = 1;
-  const bool arrayed = rendering.layers > 1 || rendering.view_mask != 0;
-  return create_views(context, sized, {ref, range, Dimension::d2, arrayed, Format::undefined, attachment_usage(context, ref), true});
+Result<ViewRef> attachment_view(const Context& context, Sized& sized, const Rendering& rendering, ViewRequest request) {
+  if (request.ref.resource == kNone) return ViewRef{};
+  request.range.mips = 1;
+  request.arrayed = rendering.layers > 1 || rendering.view_mask != 0;
+  request.usage = attachment_usage(context, request.ref);
+  request.all_aspects = true;
+  return create_views(context, sized, request);
+}
+
+ViewRequest target_of(const Attachment& attachment) {
+  ViewRequest request{attachment.ref, attachment.range};
+  request.format = attachment.view_format;
+  request.slice = attachment.slice, request.slices = attachment.slices;
+  return request;
 }
 
 VkRenderingAttachmentInfo attachment_info(const Context& context, const Attachment& attachment) {

@@ -159,6 +159,7 @@ std::string input_text(const dsl::Graph& graph, const dsl::Pass& pass, const Int
   const dsl::Access& access = pass.accesses[binding.access];
   const dsl::Resource& image = graph.resources[access.resource];
   const std::string layer = !view_shape(image, access).arrayed ? "ivec2(gl_FragCoord.xy)"
+                            : pass.multiview                   ? "ivec3(gl_FragCoord.xy, gl_ViewIndex)"
                                                                : "ivec3(gl_FragCoord.xy, gl_Layer)";
   const std::string sample = image.samples > 1 ? "gl_SampleID" : "0";
   return "#define " + access.name + " texelFetch(" + binding.name + ", " + layer + ", " + sample + ")";
@@ -310,6 +311,7 @@ Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const
   for (const char* line : kHeader) prelude.push_back({line, {}});
   const bool scalar = std::any_of(program.structs.begin(), program.structs.end(), dsl::is_scalar);
   if (scalar) prelude.push_back({"#extension GL_EXT_scalar_block_layout : require", {}});
+  if (pass.multiview) prelude.push_back({"#extension GL_EXT_multiview : require", pass.span});
   add_constants(program, prelude);
   add_structs(program, prelude);
   add_features(pass, fixed, prelude);

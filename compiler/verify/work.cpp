@@ -124,6 +124,38 @@ void check_resolves(const Work& work, const Rendering& rendering) {
   }
 }
 
+// What the access names beside the subresource: slices of a volume, and whether it is seen in another format. (Numbers of formats are no business of the
+// checker.)
+bool same_view(const Work& work, const Attachment& row, const dsl::Access& access) {
+  const dsl::Resource& image = work.model.resource(access.resource.value);
+  const Format own = work.model.input->plan.resources[row.ref.resource].format;
+  const bool is_other = row.view_format != Format::undefined && row.view_format != own;
+  if ((row.view_format != Format::undefined) != (access.view != dsl::Format::none) || is_other != (access.view != dsl::Format::none)) return false;
+  if (image.dimension != dsl::Dimension::d3) return row.slices == 0;
+  const int64_t depth = std::max<int64_t>(dsl::evaluate(work.model.input->program, image.depth, work.extents) >> access.range.mip, 1);
+  return is_slice(access) ? row.slice == access.range.slice && row.slices == access.range.slices : row.slice == 0 && row.slices == depth;
+}
+
+bool is_target(dsl::Role role) { return role == dsl::Role::color || role == dsl::Role::depth || role == dsl::Role::depth_readonly || role == dsl::Role::stencil; }
+
+void check_targets(const Work& work, const Rendering& rendering) {
+  const auto& attachments = work.model.input->plan.attachments;
+  uint32_t layers = kNone, color = 0;
+  for (uint32_t a = 0; a < work.pass.accesses.size(); ++a) {
+    const dsl::Access& access = work.pass.accesses[a];
+    if (!is_target(access.role)) continue;
+    const Shape& shape = work.model.resources[access.resource.value].partition.shape;
+    const Box box = box_of(work.model.input->program, shape, effective_range(access, shape.aspects), work.extents);
+    const Index index = access.role == dsl::Role::color ? rendering.first_color + color++ : access.role == dsl::Role::stencil ? rendering.stencil : rendering.depth;
+    if (index >= attachments.size() || !names_access(work, attachments[index].ref, a)) continue;  // reported with its contents
+    if (!same_view(work, attachments[index], access)) report_work(work, a, "the attachment is seen otherwise than declared");
+    layers = std::min(layers, attachments[index].slices != 0 ? attachments[index].slices : static_cast<uint32_t>(box.layer_end - box.layer_begin));
+  }
+  if (layers == kNone) return;
+  if (rendering.layers != layers) report_work(work, dsl::kAll, "the rendering has another number of layers than declared");
+  if (rendering.view_mask != (work.pass.multiview ? (1u << layers) - 1 : 0u)) report_work(work, dsl::kAll, "the rendering has other views than declared");
+}
+
 void check_clears(const Work& work, const Rendering& rendering) {
   const auto& attachments = work.model.input->plan.attachments;
   const auto check = [&](const Attachment& row, bool serves, uint32_t access, uint32_t aspects) {
