@@ -1,6 +1,7 @@
 #include "runtime/capabilities.h"
 
 #include <array>
+#include <cstdio>
 
 #include "runtime/features.h"
 
@@ -51,14 +52,15 @@ uint32_t subgroup_capabilities(const Device::State& state) {
 }
 
 bool draws_every_view(const Device::State& state) {
-  constexpr uint32_t kSound = VK_MAKE_API_VERSION(0, 25, 0, 0);  // the oldest that was seen to
+  constexpr unsigned kSound = 25;  // of Mesa, the oldest that was seen to; the driver's own version is 1 in all of them
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &driver;
   state.vk.GetPhysicalDeviceProperties2(state.physical, &properties);
-  return driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE || properties.properties.driverVersion >= kSound;
+  unsigned mesa = 0;
+  return driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE || (std::sscanf(driver.driverInfo, "Mesa %u", &mesa) == 1 && mesa >= kSound);
 }
 
 uint32_t enabled_capabilities(const EnabledFeatures& features) {
