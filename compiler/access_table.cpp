@@ -68,7 +68,8 @@ Layout layout_for_aspect(Layout layout, uint32_t aspect) {
 bool loads(const dsl::Access& access) { return access.role == Role::color && (access.blend.enabled || !access.clear); }
 
 bool covers(const dsl::Pass& pass, const dsl::Access& access) {
-  return access.covers || (pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && !access.blend.enabled);
+  const bool fills = pass.draw.kind == dsl::DrawKind::fullscreen && access.mode == Mode::write;  // tests may leave holes
+  return access.covers || (fills && access.role == Role::color && !access.blend.enabled);
 }
 
 Effect pick(const Row& row, Stages stages, bool reads, bool writes, uint32_t aspect) {
@@ -149,14 +150,14 @@ uint32_t default_aspects(Role role, uint32_t format_aspects) {
 }
 
 bool defines_range(const dsl::Pass& pass, const dsl::Access& access) {
-  if (access.clear) return true;
-  if (is_attachment(access.role)) return access.mode != Mode::read && covers(pass, access);
+  if (access.clear) return !is_slice(access);
+  if (is_attachment(access.role)) return access.mode != Mode::read && covers(pass, access) && !is_slice(access);
   return access.mode == Mode::write && !access.disjoint;
 }
 
 bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   if (access.mode == Mode::read || access.mode == Mode::atomic) return true;
-  if (access.clear) return false;
+  if (access.clear) return is_slice(access);
   return access.mode == Mode::update || access.disjoint || (is_attachment(access.role) && (access.blend.enabled || !covers(pass, access)));
 }
 

@@ -119,14 +119,17 @@ CompileResult run_tasks(const std::string& root_path, const dsl::ReadSource& rea
   return result;
 }
 
-// Of devices that can run this plan: features of the device that are on in its configuration.
-std::vector<Capability> needs_of(const dsl::Program& program, dsl::GraphId graph, const Configuration& configuration) {
+// Of devices that can run this plan: features of the device that are on in its configuration, and several views at once.
+std::vector<Capability> needs_of(const dsl::Program& program, dsl::GraphId graph, const Configuration& configuration,
+                                 const std::vector<Rendering>& renderings) {
   std::vector<Capability> needs;
   const std::vector<bool> of_plans = features_of_plans(program, program.graphs[graph]);
   for (size_t f = 0; f < of_plans.size(); ++f) {
     const dsl::Feature& feature = program.features.rows[f];
     if (of_plans[f] && feature.capability != dsl::Capability::none && configuration[f] == 1) needs.push_back(plan_capability(feature.capability));
   }
+  const bool views = std::any_of(renderings.begin(), renderings.end(), [](const Rendering& rendering) { return rendering.view_mask != 0; });
+  if (views && std::find(needs.begin(), needs.end(), Capability::multiview) == needs.end()) needs.push_back(Capability::multiview);
   return needs;
 }
 
@@ -141,7 +144,7 @@ std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph
     plan.plan.variant = static_cast<uint32_t>(plans.size());
     plan.plan.variant_count = static_cast<uint32_t>(graph.configurations.size());
     plan.plan.variant_name = intern(configuration_name(program, configuration));
-    plan.plan.needs = needs_of(program, graph.graph, configuration);
+    plan.plan.needs = needs_of(program, graph.graph, configuration, plan.plan.renderings);
     attach_shaders(plan.plan, program, graph.graph, graph.shaders, plans.size());
     for (FusionNote& note : fusion_notes(result.written, result.fused, result.not_fused, graph.graph))
       plan.decisions.push_back({std::move(note.subject), std::move(note.what), std::move(note.reason)});

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "compiler/byte_cuts.h"
 #include "compiler/emit_plan.h"
 
 namespace rg::compiler {
@@ -18,18 +19,11 @@ ImageBarrier image_row(const PlanParts& parts, const PlanIndices& indices, const
   return row;
 }
 
-Bytes bytes_between(uint64_t begin, uint64_t end, Expressions& exprs) {
-  Bytes bytes;
-  if (begin > 0) bytes.offset = exprs.constant(static_cast<int64_t>(begin));
-  if (end != UINT64_MAX) bytes.size = exprs.constant(static_cast<int64_t>(end - begin));
-  return bytes;
-}
-
 BufferBarrier buffer_row(const PlanParts& parts, const PlanIndices& indices, const CellBarrier& b, Expressions& exprs) {
   const Cell& cell = parts.frame.cells[b.cell];
   BufferBarrier row;
   row.buffer = {indices.resource[cell.resource], cell.age};
-  row.bytes = bytes_between(b.begin, b.end, exprs);
+  row.bytes = bytes_between(parts.frame.grids[cell.resource], b.begin, b.end, exprs);
   row.src_stages = b.src_stages, row.src_accesses = b.src_accesses;
   row.dst_stages = b.dst_stages, row.dst_accesses = b.dst_accesses;
   row.tag = b.tag;
@@ -67,7 +61,7 @@ void emit_boundary(const PlanParts& parts, const PlanIndices& indices, const std
     Boundary row = state;
     row.ref = {indices.resource[cell.resource], cell.age};
     if (resource.kind == dsl::ResourceKind::image) row.range = plan_range(resource, cell.range);
-    if (resource.kind == dsl::ResourceKind::buffer) row.bytes = bytes_between(cell.begin, cell.end, exprs);
+    if (resource.kind == dsl::ResourceKind::buffer) row.bytes = bytes_between(parts.frame.grids[cell.resource], cell.begin, cell.end, exprs);
     to.push_back(row);
   }
 }

@@ -30,6 +30,7 @@ Found find_uses(const PlanParts& parts, uint32_t pass, const dsl::Access& access
 
 LoadOp load_op(const dsl::Pass& pass, const dsl::Access& access, const Found& found, bool may_discard) {
   if (access.clear) return LoadOp::clear;
+  if (is_slice(access) && access.covers && may_discard) return LoadOp::dont_care;
   return (needs_contents(pass, access) || !may_discard) && found.defined_before ? LoadOp::load : LoadOp::dont_care;
 }
 // NONE leaves memory alone, so an attachment that is only read really only is.
@@ -59,6 +60,13 @@ std::vector<const dsl::Access*> attachments_of(const dsl::Pass& pass) {
   return found;
 }
 
+// Of a volume whose depth is known, where none are named.
+uint32_t slices_of(const PlanParts& parts, const dsl::Resource& volume, const dsl::Access& access) {
+  if (is_slice(access)) return access.range.slices;
+  const int64_t depth = dsl::evaluate(*parts.frame.program, volume.depth, dsl::initial_extents(*parts.frame.program));
+  return static_cast<uint32_t>(std::max<int64_t>(depth >> access.range.mip, 1));
+}
+
 // The first pass says what is loaded, the last what is wanted.
 Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, const Members& members, size_t number) {
   const dsl::Pass& pass = parts.frame.pass(members.front());
@@ -74,6 +82,8 @@ Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, co
   Attachment row;
   row.ref = plan_ref(indices, access.resource, access.age);
   row.range = range;
+  if (resource.dimension == dsl::Dimension::d3) row.slice = is_slice(access) ? access.range.slice : 0, row.slices = slices_of(parts, resource, access);
+  if (access.view != dsl::Format::none) row.view_format = format_row(access.view).vulkan;
   row.layout = found.layout;
   const bool discards = may_discard(parts.options, resource);
   row.load = load_op(pass, access, found, discards);
@@ -107,7 +117,8 @@ void set_size(const PlanParts& parts, const dsl::Access& access, Expressions& ex
     rendering.height = exprs.mip(index_of(resource.height), range.mip);
     rendering.samples = resource.samples;
   }
-  rendering.layers = first ? range.layers : std::min(rendering.layers, range.layers);
+  const uint32_t layers = resource.dimension == dsl::Dimension::d3 ? slices_of(parts, resource, access) : range.layers;
+  rendering.layers = first ? layers : std::min(rendering.layers, layers);
 }
 
 }  // namespace
@@ -134,6 +145,7 @@ void emit_rendering(const PlanParts& parts, const PlanIndices& indices, size_t p
     if (slot == Slot::depth) rendering.depth = index;
     if (slot == Slot::stencil) rendering.stencil = index;
   }
+  if (pass.multiview) rendering.view_mask = (1u << rendering.layers) - 1;
   row.rendering = static_cast<Index>(plan.renderings.size());
   plan.renderings.push_back(rendering);
 }

@@ -11,7 +11,7 @@ WorkKind draw_kind(const dsl::Draw& draw) {
   switch (draw.kind) {
     case dsl::DrawKind::fullscreen:
     case dsl::DrawKind::direct:
-      return WorkKind::draw;
+      return draw.indexed ? WorkKind::draw_indexed : WorkKind::draw;
     case dsl::DrawKind::indirect:
       return draw.indexed ? WorkKind::draw_indexed_indirect : WorkKind::draw_indirect;
     case dsl::DrawKind::indirect_count:
@@ -30,10 +30,25 @@ void point_to(const dsl::Pass& pass, const PlanIndices& indices, uint32_t access
   if (offset) *offset = index_of(pass.accesses[access].range.offset);
 }
 
+// What the draw takes its vertices and indices from.
+void set_buffers(const PlanParts& parts, const dsl::Pass& pass, const PlanIndices& indices, PlanData& plan, Work& work) {
+  work.first_vertex_buffer = static_cast<Index>(plan.vertex_buffers.size());
+  for (const dsl::VertexInput& input : pass.draw.vertex) {
+    if (input.buffer == dsl::kAll) continue;
+    VertexBuffer& row = plan.vertex_buffers.emplace_back();
+    point_to(pass, indices, input.buffer, row.ref, &row.offset);
+  }
+  work.vertex_buffer_count = static_cast<uint32_t>(plan.vertex_buffers.size()) - work.first_vertex_buffer;
+  if (pass.draw.indices == dsl::kAll) return;
+  point_to(pass, indices, pass.draw.indices, work.indices, &work.indices_offset);
+  work.index_bytes = parts.frame.graph->resources[pass.accesses[pass.draw.indices].resource].stride;
+}
+
 void set_draw(const dsl::Pass& pass, const PlanIndices& indices, Expressions& exprs, Work& work) {
   work.kind = draw_kind(pass.draw);
   work.x = pass.draw.kind == dsl::DrawKind::fullscreen ? exprs.constant(kFullscreenVertices) : index_of(pass.draw.vertices);
   work.y = index_of(pass.draw.instances);
+  work.first = index_of(pass.draw.first), work.vertex_offset = index_of(pass.draw.offset);
   point_to(pass, indices, pass.draw.arguments, work.arguments, &work.arguments_offset);
   point_to(pass, indices, pass.draw.counts, work.counts, nullptr);
   work.max_draws = pass.draw.max_draws, work.stride = pass.draw.stride;
@@ -117,7 +132,10 @@ void emit_work(const PlanParts& parts, const PlanIndices& indices, uint32_t pass
     row.work.kind = WorkKind::host;
     return;
   }
-  if (pass.draw.kind != dsl::DrawKind::none) set_draw(pass, indices, exprs, row.work);
+  if (pass.draw.kind != dsl::DrawKind::none) {
+    set_draw(pass, indices, exprs, row.work);
+    set_buffers(parts, pass, indices, plan, row.work);
+  }
   if (pass.dispatch.kind != dsl::DispatchKind::none) set_dispatch(pass, indices, exprs, row.work);
   if (pass.kind == dsl::PassKind::transfer) set_transfers(parts, indices, pass_index, plan, row.work);
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "compiler/byte_cuts.h"
 #include "compiler/expressions.h"
 #include "compiler/format_table.h"
 #include "compiler/frame.h"
@@ -52,10 +53,28 @@ void for_each_access(const Frame& frame, Visit visit) {
     for (const dsl::Access& access : frame.pass(pass).accesses) visit(frame.pass(pass), access);
 }
 
+// Of an access to a buffer, as numbers of its grid; everything where that is not cut by what extents decide.
+ByteInterval piece_of(const Frame& frame, const dsl::Access& access) {
+  const Grid& grid = frame.grids[access.resource.value];
+  const auto place = grid.places.find({access.range.offset.value, access.range.size.value});
+  if (place != grid.places.end()) return {place->second.first, place->second.second};
+  if (!grid.cuts.empty()) return {};
+  return constant_bytes(*frame.program, (*frame.graph).resources[access.resource], access.range).value_or(ByteInterval{});
+}
+
+// Passes whose range is not known, though some are: they touch some of the one cell.
+bool is_partial(const Frame& frame, const dsl::Access& access) {
+  const dsl::Resource& resource = (*frame.graph).resources[access.resource];
+  return resource.kind == dsl::ResourceKind::buffer && frame.grids[access.resource.value].cuts.empty() &&
+         !constant_bytes(*frame.program, resource, access.range);
+}
+
 void cut_grids(Frame& frame) {
   const auto& resources = frame.graph->resources.rows;
   frame.grids.resize(resources.size());
   std::vector<bool> symbolic(resources.size());
+  std::vector<std::vector<dsl::Range>> ranges(resources.size());  // of buffers, those that are not the whole
+  dsl::Formulas formulas(*frame.program);
   for_each_access(frame, [&](const dsl::Pass&, const dsl::Access& access) {
     const dsl::Resource& resource = resources[access.resource.value];
     Grid& grid = frame.grids[access.resource.value];
@@ -63,6 +82,7 @@ void cut_grids(Frame& frame) {
     if (resource.kind == dsl::ResourceKind::buffer) {
       const auto bytes = constant_bytes(*frame.program, resource, access.range);
       if (!bytes) symbolic[access.resource.value] = true;
+      if (access.range.offset.valid()) ranges[access.resource.value].push_back(access.range);
       if (bytes) grid.bytes.insert(grid.bytes.end(), {bytes->begin, bytes->end});
       return;
     }
@@ -73,11 +93,12 @@ void cut_grids(Frame& frame) {
   for (uint32_t r = 0; r < resources.size(); ++r) {
     Grid& grid = frame.grids[r];
     if (symbolic[r]) grid.bytes.clear();
+    if (symbolic[r] && cut_bytes(formulas, resources[r], ranges[r], grid)) continue;
     grid.bytes.insert(grid.bytes.end(), {0, UINT64_MAX});
     grid.mips.insert(grid.mips.end(), {0, resources[r].mips});
     grid.layers.insert(grid.layers.end(), {0, resources[r].layers});
     for (uint32_t bit = 1; bit <= aspect_stencil; bit <<= 1)
-      if (format_aspects(resources[r]) & bit) grid.aspects.push_back(bit);
+      if (resources[r].kind == dsl::ResourceKind::image && (format_aspects(resources[r]) & bit)) grid.aspects.push_back(bit);
     sort_unique(grid.bytes);
     sort_unique(grid.mips);
     sort_unique(grid.layers);
@@ -128,8 +149,7 @@ void add_uses(Frame& frame, uint32_t pass) {
   const size_t first = frame.uses.size();
   frame.first_use.push_back(static_cast<uint32_t>(first));
   for (const dsl::Access& access : frame.pass(pass).accesses) {
-    const dsl::Resource& resource = (*frame.graph).resources[access.resource];
-    const bool partial = resource.kind == dsl::ResourceKind::buffer && !constant_bytes(*frame.program, resource, access.range);
+    const bool partial = is_partial(frame, access);
     for (const uint32_t cell : cells_of(frame, access)) frame.uses.push_back(make_use(frame, pass, access, cell, partial));
   }
   const auto begin = frame.uses.begin() + static_cast<ptrdiff_t>(first);
@@ -198,7 +218,7 @@ std::vector<uint32_t> cells_of(const Frame& frame, const dsl::Access& access) {
   const uint32_t first = grid.first_cell + access.age * grid.cells_per_age();
   std::vector<uint32_t> cells;
   if (resource.kind == dsl::ResourceKind::buffer) {
-    const ByteInterval bytes = constant_bytes(*frame.program, resource, access.range).value_or(ByteInterval{});
+    const ByteInterval bytes = piece_of(frame, access);
     for (uint32_t i = 0; i + 1 < grid.bytes.size(); ++i)
       if (grid.bytes[i] >= bytes.begin && grid.bytes[i] < bytes.end) cells.push_back(first + i);
     if (grid.bytes.size() == 2) cells = {first};

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -40,11 +41,18 @@ struct Use {
   bool writes() const { return effect.writes != 0; }
 };
 
+struct ByteCut {  // at offset + size, an invalid one being 0
+  dsl::ExprId offset, size;
+};
+
 // How a resource is cut into cells; cells of one resource are contiguous: by age, aspect, mip piece, layer piece or byte piece.
 struct Grid {
   uint32_t first_cell = 0, ages = 1;
   std::vector<uint32_t> aspects, mips, layers;  // images; cuts of mips and layers, first 0, last the count
   std::vector<uint64_t> bytes;                  // buffers; cuts, first 0, last UINT64_MAX
+  // Buffers that are cut by extents: `bytes` counts these, and so do the cells; where ranges, by offset and size, begin and end.
+  std::vector<ByteCut> cuts;
+  std::map<std::pair<uint32_t, uint32_t>, std::pair<uint64_t, uint64_t>> places;
   uint32_t cells_per_age() const;
 };
 

@@ -163,7 +163,7 @@ void judge_draw(Judge& at, const dsl::Pass& pass) {
     keep_within(at, "maxPushConstantsSize", at.program.structs[draw.per_draw].size430,
                 "the size in bytes of `" + at.program.structs[draw.per_draw].name + "`", pass.span);
   size_t attributes = 0;
-  for (const dsl::StructId id : draw.vertex) attributes += at.program.structs[id].fields.size();
+  for (const dsl::VertexInput& input : draw.vertex) attributes += at.program.structs[input.type].fields.size();
   keep_within(at, "maxVertexInputBindings", static_cast<double>(draw.vertex.size()), "the number of vertex structs of " + quoted("pass", pass.name),
               pass.span);
   keep_within(at, "maxVertexInputAttributes", static_cast<double>(attributes), "the number of vertex fields of " + quoted("pass", pass.name),
@@ -219,6 +219,7 @@ void judge_pass(Judge& at, const dsl::Pass& pass) {
       keep_within(at, "maxUniformBufferRange", static_cast<double>(dsl::evaluate(at.program, resource.count, at.extents)) * resource.stride,
                   "the size in bytes of uniform " + quoted("buffer", resource.name), access.span);
   }
+  if (pass.multiview) need(at, "multiview", quoted("pass", pass.name), pass.span, "without it, draw each layer in a pass of its own");
   judge_stages(at, pass);
   judge_draw(at, pass);
   judge_attachments(at, pass);

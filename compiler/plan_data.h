@@ -49,6 +49,7 @@ struct PlanData {
   std::vector<Pipeline> pipelines;
   std::vector<Index> pipeline_shaders;
   std::vector<ColorBlend> blends;
+  std::vector<VertexBuffer> vertex_buffers;
   std::vector<VertexBinding> vertex_bindings;
   std::vector<VertexAttribute> vertex_attributes;
   std::vector<Binding> bindings;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numeric>
-#include <tuple>
 
 #include "compiler/schedule_problem.h"
 
@@ -14,14 +14,15 @@ namespace {
 
 constexpr size_t kMostBetween = 4096;  // passes looked at for a way around a rendering
 
-// What passes of one rendering have in common: role, resource, age, view, aspects, mip, layers of each attachment, in order.
-using Key = std::vector<std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>>;
+// What passes of one rendering have in common: role, views, resource, age, format, aspects, mip, layers, slices of each attachment, in order.
+using Key = std::vector<std::array<uint32_t, 11>>;
 
 Key key_of(const Frame& frame, const dsl::Pass& pass) {
   Key key;
   const auto add = [&](const dsl::Access& access, uint32_t role) {
     const Range range = resolved_range(frame.graph->resources[access.resource], access);
-    key.emplace_back(role, access.resource.value, access.age, static_cast<uint32_t>(access.view), range.aspects, range.mip, range.layer, range.layers);
+    key.push_back({role, pass.multiview, access.resource.value, access.age, static_cast<uint32_t>(access.view), range.aspects, range.mip, range.layer,
+                   range.layers, access.range.slice, access.range.slices});
   };
   for (const dsl::Access& access : pass.accesses)
     if (access.role == dsl::Role::color) add(access, 0);
@@ -103,6 +104,7 @@ class Finder {
       if (options_.no_merge.contains(frame_.pass(one).name)) return fmt::format("`--no-merge={}`", name(one));
     if (const std::string fixed = fixed_between(leader, pass); !fixed.empty()) return fixed;
     if (first.queue != row.queue) return "they name different queues";
+    if (row.multiview) return "queries within a rendering of several views count for each, so its passes could not be timed";
     if (clears(row)) return "it clears, which only the first pass of a rendering can; without `clear` it would continue";
     if (resolves(frame_.pass(last))) return fmt::format("`{}` resolves, which ends a rendering; a resolve in this pass would not", name(last));
     if (!runs_with(first, row)) return fmt::format("it may run where `{}` is skipped; under the same conditions it would continue", name(leader));

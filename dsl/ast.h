@@ -228,11 +228,15 @@ struct PerDraw {
   Boxed<Expr> type;                      // by name
   Boxed<StructDeclaration> declaration;  // or in place
 };
+struct VertexStatement {  // `vertex Mesh`, `instance Placement`
+  Expr type;
+  bool per_instance = false;
+};
 struct DrawStatement {
   bool host = false, indirect = false, indexed = false;
-  Boxed<Expr> vertices, instances, arguments, max_draws, counts;
+  Boxed<Expr> vertices, instances, first, offset, arguments, max_draws, counts;
   Boxed<PerDraw> per_draw;
-  std::vector<Expr> vertex;
+  std::vector<VertexStatement> vertex;
   Span span;
 };
 struct TransferStatement {
@@ -250,7 +254,7 @@ struct ParamsStatement {
   Boxed<Expr> type;
   Span span;
 };
-struct WordStatement {  // state NAME, bind NAME, after PASS, with BUNDLE, keep
+struct WordStatement {  // state NAME, bind NAME, after PASS, with BUNDLE, keep, multiview
   Name word;
   Boxed<Expr> value;
   Span span;

@@ -282,6 +282,7 @@ const char* suffix_of(Role role) {
 }  // namespace
 
 bool is_shader_role(Role role) { return role == Role::sampled || role == Role::storage || role == Role::uniform || role == Role::input; }
+bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
 bool is_written(Mode mode) { return mode != Mode::read; }
 
 std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const AccessStatement& statement) {
@@ -307,6 +308,7 @@ std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScop
   read_blend(at);
   read_clear(at);
   at.access.mode = mode_of(at);
+  if (is_slice(at.access) && at.access.mode == Mode::write) at.access.mode = Mode::update;  // the other slices stay
   check_port(at, place);
   at.access.stages = find_stages(checker, statement.stages.empty() && statement.usage ? statement.usage->stages : statement.stages);
   if (!at.ok) return out.dropped = scope.incomplete = true, std::nullopt;

@@ -18,7 +18,7 @@ bool read_scan(Checker& checker, GraphScope& scope, Block& block, const ast::Sha
   block.scan = static_cast<uint32_t>(node.scan.text[0] - 'x');
   block.associative = node.associative;
   const auto type = element_type(checker, scope.module, *node.carry);
-  if (!type) return false;
+  if (!type || !check_not_packed(checker, type->record, node.carry->span)) return false;
   block.carry = *type;
   const uint32_t bytes = type->record.valid() ? checker.program.structs[type->record].size430 : 0;
   if (!node.carry->count && !node.carry->unsized && bytes <= kMaxCarryBytes) return true;

@@ -1,12 +1,13 @@
 // Every read needs a write that reaches it on every path: in every feature configuration and whatever the host's conditions are.
 //
-// A resource is a set of cells: (aspect, mip, layer) of an image, the whole or known byte ranges of a buffer. A cell remembers under which
-// guards and conditions it has been written for certain. A pass that touches mip m of an image runs only at extents where the image has that
-// mip: what it writes is certain for readers that need the same mip, and for the mips that vanish with it.
+// A resource is a set of cells: (aspect, mip, layer) of an image, with slices for layers in a volume of known depth; the whole or byte ranges of a
+// buffer. A cell remembers under which guards and conditions it has been written for certain. A pass that touches mip m of an image runs only at
+// extents where the image has that mip: what it writes is certain for readers that need the same mip, and for the mips that vanish with it.
 #include <algorithm>
 
 #include "dsl/check_state.h"
 #include "dsl/features.h"
+#include "dsl/symbolic.h"
 
 namespace rg::dsl {
 namespace {
@@ -23,8 +24,7 @@ struct Cell {
   std::vector<Fact> facts;
 };
 struct ByteRange {
-  int64_t begin = 0, end = 0;
-  ExprId offset, size;  // valid: compared as formulas
+  Polynomial begin, end;
   Fact fact;
 };
 struct Tracked {
@@ -40,6 +40,7 @@ struct Walk {
   std::vector<Tracked> tracked;
   std::vector<bool> reported;  // by resource: its first bad read is enough
   std::vector<bool> written;   // by resource: some pass writes it, perhaps
+  mutable Formulas formulas;
 };
 
 bool implies(const std::vector<ConditionId>& reader, const std::vector<ConditionId>& writer) {
@@ -105,23 +106,42 @@ void set(Cell& cell, const Fact& fact) {
 
 constexpr uint32_t kAspects[] = {aspect_color, aspect_depth, aspect_stencil};
 
+bool is_known(const Walk& walk, ExprId id) { return id.valid() && walk.checker.program.exprs[id].op == ExprOp::constant; }
+
+// Cells of each aspect and mip: layers, or the slices of a volume whose depth is known.
+struct Row {
+  uint32_t width = 1;
+  bool of_slices = false;
+};
+Row row_of(const Walk& walk, const Resource& image) {
+  constexpr int64_t kMostSlices = 2048;
+  if (image.dimension != Dimension::d3 || !is_known(walk, image.depth) || walk.checker.program.exprs[image.depth].value > kMostSlices)
+    return {image.layers, false};
+  return {static_cast<uint32_t>(walk.checker.program.exprs[image.depth].value), true};
+}
+
 bool is_whole(const Resource& image, const Range& range) {
+  if (range.slices != kAll) return false;
   return range.aspects == info(image.format).aspects && mip_count(image, range) == image.mips && layer_count(image, range) == image.layers;
 }
 
 // Calls visit(cell index) for every cell of the range; stops when it returns false.
 template <class Visit>
-bool each_cell(const Resource& image, const Range& range, Visit visit) {
+bool each_cell(const Row& row, const Resource& image, const Range& range, Visit visit) {
   for (uint32_t aspect = 0; aspect < 3; ++aspect) {
     if ((range.aspects & kAspects[aspect]) == 0) continue;
-    for (uint32_t mip = range.mip; mip < range.mip + mip_count(image, range); ++mip)
-      for (uint32_t layer = range.layer; layer < range.layer + layer_count(image, range); ++layer)
-        if (!visit((aspect * image.mips + mip) * image.layers + layer)) return false;
+    for (uint32_t mip = range.mip; mip < range.mip + mip_count(image, range); ++mip) {
+      const bool some = row.of_slices && range.slices != kAll;
+      const uint32_t first = some ? range.slice : range.layer;
+      const uint32_t count = some ? range.slices : row.of_slices ? std::max(row.width >> mip, 1u) : layer_count(image, range);
+      for (uint32_t at = first; at < first + count; ++at)
+        if (!visit((aspect * image.mips + mip) * row.width + at)) return false;
+    }
   }
   return true;
 }
 
-uint32_t mip_of_cell(const Resource& image, uint32_t cell) { return cell / image.layers % image.mips; }
+uint32_t mip_of_cell(const Row& row, const Resource& image, uint32_t cell) { return cell / row.width % image.mips; }
 
 // Where the cell exists, limits to its own image up to its own mip hold.
 Fact for_cell(Fact fact, ResourceId id, uint32_t mip) {
@@ -129,53 +149,64 @@ Fact for_cell(Fact fact, ResourceId id, uint32_t mip) {
   return fact;
 }
 
-void define_image(Tracked& tracked, ResourceId id, const Resource& image, const Range& range, const Fact& fact) {
+void define_image(const Walk& walk, Tracked& tracked, ResourceId id, const Resource& image, const Range& range, const Fact& fact) {
   if (is_whole(image, range) && fact.limits.empty()) return set(tracked.whole, fact);
-  if (tracked.cells.empty()) tracked.cells.resize(size_t{3} * image.mips * image.layers);
-  each_cell(image, range, [&](uint32_t cell) { return set(tracked.cells[cell], for_cell(fact, id, mip_of_cell(image, cell))), true; });
+  const Row row = row_of(walk, image);
+  if (range.slices != kAll && !row.of_slices) return;  // nobody knows how many there are
+  if (tracked.cells.empty()) tracked.cells.resize(size_t{3} * image.mips * row.width);
+  each_cell(row, image, range, [&](uint32_t cell) { return set(tracked.cells[cell], for_cell(fact, id, mip_of_cell(row, image, cell))), true; });
 }
 
 bool image_defined(const Walk& walk, const Tracked& tracked, const Resource& image, const Range& range, const Fact& reader) {
   if (tracked.cells.empty()) return cell_defined(walk, tracked, nullptr, reader);
-  return each_cell(image, range, [&](uint32_t cell) { return cell_defined(walk, tracked, &tracked.cells[cell], reader); });
+  return each_cell(row_of(walk, image), image, range, [&](uint32_t cell) { return cell_defined(walk, tracked, &tracked.cells[cell], reader); });
 }
 
 // ---- buffers ----------------------------------------------------------------------------------------------------
 
-std::optional<int64_t> known(const Walk& walk, ExprId id) {
-  if (!id.valid() || walk.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
-  return walk.checker.program.exprs[id].value;
+ByteRange bytes_of(const Walk& walk, const Resource& buffer, const Range& range, const Fact& fact) {
+  if (!range.offset.valid()) return {Polynomial(0), walk.formulas.of(buffer.count) * Polynomial(buffer.stride), fact};
+  const Polynomial begin = walk.formulas.of(range.offset);
+  return {begin, begin + walk.formulas.of(range.size), fact};
 }
 
-void define_buffer(const Walk& walk, Tracked& tracked, const Range& range, const Fact& fact) {
+void define_buffer(const Walk& walk, Tracked& tracked, const Resource& buffer, const Range& range, const Fact& fact) {
   if (!range.offset.valid()) return set(tracked.whole, fact);
-  const auto offset = known(walk, range.offset), size = known(walk, range.size);
-  ByteRange bytes{0, 0, range.offset, range.size, fact};
-  if (offset && size) bytes = {*offset, *offset + *size, {}, {}, fact};
-  tracked.bytes.push_back(bytes);
+  tracked.bytes.push_back(bytes_of(walk, buffer, range, fact));
 }
 
-bool bytes_defined(const Walk& walk, const Tracked& tracked, int64_t begin, int64_t end, const Fact& reader) {
-  while (begin < end) {
-    int64_t reach = begin;
-    for (const ByteRange& range : tracked.bytes) {
-      const bool fits = !range.offset.valid() && range.begin <= begin && range.end > reach;
-      if (fits && covers(walk, {&range.fact}, reader)) reach = range.end;
+bool reaches(const Walk& walk, const Polynomial& far, const Polynomial& near) { return walk.formulas.never_negative(far - near); }
+
+// Written for the reader in every case by this range and those that are the same bytes under other conditions.
+bool range_defined(const Walk& walk, const Tracked& tracked, const ByteRange& range, const Fact& reader) {
+  std::vector<const Fact*> facts;
+  for (const ByteRange& other : tracked.bytes)
+    if (other.begin.terms() == range.begin.terms() && other.end.terms() == range.end.terms()) facts.push_back(&other.fact);
+  return covers(walk, facts, reader);
+}
+
+// Goes from range to range, each of which begins at or before the end of those before it. Formulas that overflow are as good as none.
+bool bytes_defined(const Walk& walk, const Tracked& tracked, const ByteRange& wanted, const Fact& reader) {
+  Polynomial reach = wanted.begin;
+  std::vector<bool> taken(tracked.bytes.size());
+  while (!reaches(walk, reach, wanted.end)) {
+    size_t next = 0;
+    for (; next < taken.size(); ++next) {
+      const ByteRange& range = tracked.bytes[next];
+      const bool fits = !taken[next] && reaches(walk, reach, range.begin) && reaches(walk, range.end, reach);
+      if (fits && range_defined(walk, tracked, range, reader)) break;
     }
-    if (reach == begin) return false;
-    begin = reach;
+    if (next == taken.size()) return false;
+    taken[next] = true;
+    reach = tracked.bytes[next].end;
   }
   return true;
 }
 
 bool buffer_defined(const Walk& walk, const Tracked& tracked, const Resource& buffer, const Range& range, const Fact& reader) {
   if (cell_defined(walk, tracked, nullptr, reader)) return true;
-  const auto offset = known(walk, range.offset), size = known(walk, range.size), count = known(walk, buffer.count);
-  if (!range.offset.valid()) return count && bytes_defined(walk, tracked, 0, *count * buffer.stride, reader);
-  if (offset && size) return bytes_defined(walk, tracked, *offset, *offset + *size, reader);
-  return std::any_of(tracked.bytes.begin(), tracked.bytes.end(), [&](const ByteRange& bytes) {
-    return bytes.offset == range.offset && bytes.size == range.size && covers(walk, {&bytes.fact}, reader);
-  });
+  if (!range.offset.valid() && !buffer.count.valid()) return false;  // as long as the host makes it
+  return bytes_defined(walk, tracked, bytes_of(walk, buffer, range, reader), reader);
 }
 
 // ---- the walk over passes ---------------------------------------------------------------------------------------
@@ -192,7 +223,10 @@ bool defined_from_start(const Resource& resource) {
   return resource.lifetime == Lifetime::persistent && resource.init == InitKind::clear;
 }
 
-bool needs_earlier(const Access& access) { return access.mode != Mode::write && !access.clear; }
+// All of its range, for certain. What covers slices of a volume is an update of its mip.
+bool defines(const Access& access) { return access.mode == Mode::write || access.clear || (is_slice(access) && access.covers); }
+
+bool needs_earlier(const Access& access) { return !defines(access); }
 
 const Pass* find_later_writer(const Walk& walk, uint32_t pass, ResourceId resource) {
   for (uint32_t later = pass; later < walk.graph.passes.size(); ++later)
@@ -220,12 +254,13 @@ std::string first_missing(const Walk& walk, const Access& access) {
   if (image.kind == ResourceKind::buffer) return tracked.bytes.empty() ? "" : "a part";
   uint32_t missing = UINT32_MAX;
   if (tracked.cells.empty()) return {};
-  each_cell(image, access.range, [&](uint32_t cell) {
+  const Row row = row_of(walk, image);
+  each_cell(row, image, access.range, [&](uint32_t cell) {
     if (untouched(tracked, tracked.cells[cell])) missing = cell;
     return missing == UINT32_MAX;
   });
   if (missing == UINT32_MAX) return {};
-  return "mip " + std::to_string(mip_of_cell(image, missing)) + ", layer " + std::to_string(missing % image.layers);
+  return "mip " + std::to_string(mip_of_cell(row, image, missing)) + (row.of_slices ? ", slice " : ", layer ") + std::to_string(missing % row.width);
 }
 
 void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& diagnostic) {
@@ -270,14 +305,14 @@ void write(Walk& walk, uint32_t pass, const Access& access, const Fact& writer) 
   if (access.mode == Mode::read) return;
   const Resource& resource = walk.graph.resources[access.resource];
   Tracked& tracked = walk.tracked[access.resource.value];
-  const bool certain = access.mode == Mode::write || access.clear;
+  const bool certain = defines(access);
   walk.written[access.resource.value] = true;
   if (!certain || !writer.always()) tracked.may.push_back(pass);
   if (!certain) return;
   if (resource.kind == ResourceKind::image)
-    define_image(tracked, access.resource, resource, access.range, writer);
+    define_image(walk, tracked, access.resource, resource, access.range, writer);
   else
-    define_buffer(walk, tracked, access.range, writer);
+    define_buffer(walk, tracked, resource, access.range, writer);
 }
 
 Range whole_range(const Resource& resource) {
@@ -309,13 +344,13 @@ std::vector<MipLimit> effective_limits(const Walk& walk, const Pass& pass) {
   std::vector<MipLimit> limits = pass.mip_limits;
   std::erase_if(limits, [&](const MipLimit& limit) {
     const Resource& image = walk.graph.resources[limit.image];
-    return known(walk, image.width) && (!image.height.valid() || known(walk, image.height)) && (!image.depth.valid() || known(walk, image.depth));
+    return is_known(walk, image.width) && (!image.height.valid() || is_known(walk, image.height)) && (!image.depth.valid() || is_known(walk, image.depth));
   });
   return limits;
 }
 
 Walk start(Checker& checker, const Graph& graph) {
-  Walk walk{checker, graph, {}, {}, {}};
+  Walk walk{checker, graph, {}, {}, {}, Formulas(checker.program)};
   walk.tracked.resize(graph.resources.size());
   walk.reported.resize(graph.resources.size());
   walk.written.resize(graph.resources.size());

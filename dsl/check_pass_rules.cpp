@@ -54,8 +54,8 @@ bool of_buffers(Role role) {
 }
 
 bool of_texels(Role role) {
-  return role == Role::sampled ||
-         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::index && role != Role::indirect);
+  return role == Role::sampled || role == Role::index ||
+         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::indirect);
 }
 
 bool of_pass(Role role, PassKind kind) {
@@ -84,7 +84,10 @@ bool of_pass(Role role, PassKind kind) {
   }
 }
 
-bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
+std::optional<int64_t> known(const Rules& rules, ExprId id) {
+  if (!id.valid() || rules.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
+  return rules.checker.program.exprs[id].value;
+}
 
 bool check_role(const Rules& rules, const Access& access) {
   const Resource& resource = rules.resource(access);
@@ -155,14 +158,36 @@ void check_mips(const Rules& rules, const Access& access) {
       .note(DiagnosticKind::DeclaredHere, image.span, {image.name});
 }
 
+void check_slices(const Rules& rules, const Access& access) {
+  const Resource& image = rules.resource(access);
+  if (is_slice(access) && !is_attachment(access.role))
+    return void(rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"slice", word_of(access.role)}));
+  const uint32_t depth = is_slice(access) ? least_depth(rules.checker.program, image, access.range.mip) : kAll;
+  if (is_slice(access) && access.range.slice + access.range.slices > depth)  // `.slice(3).mip(1)`
+    rules.checker.report(DiagnosticKind::NoSuchSubresource, access.span,
+                         {image.name, std::to_string(depth), "slices", std::to_string(access.range.slice + access.range.slices - 1)});
+  if (!is_attachment(access.role) || image.dimension != Dimension::d3 || is_slice(access) || known(rules, image.depth)) return;
+  rules.checker.report(DiagnosticKind::SlicesNeeded, access.span, {image.name}).note(DiagnosticKind::DeclaredHere, image.span, {image.name});
+}
+
 void check_image_use(const Rules& rules, const Access& access) {
   const FormatInfo& format = info(seen_format(rules.resource(access), access));
   const bool in_shader = access.role == Role::sampled || access.role == Role::storage;
-  if (access.view != Format::none && !in_shader) rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"view", word_of(access.role)});
+  const bool viewed = in_shader || access.role == Role::color;
+  if (access.view != Format::none && !viewed) rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"view", word_of(access.role)});
   if (is_attachment(access.role)) check_attachment_format(rules, access, format);
   if (access.role == Role::storage) check_storage_format(rules, access, format);
   if (access.role == Role::sampled) check_sampler(rules, access, format);
   check_mips(rules, access);
+  check_slices(rules, access);
+}
+
+// Shaders see texels through a view of the buffer, and the engine may bring another every frame.
+void check_imported_texels(const Rules& rules, const Access& access) {
+  const Resource& buffer = rules.resource(access);
+  if (buffer.kind != ResourceKind::buffer || buffer.format == Format::none || buffer.lifetime != Lifetime::imported) return;
+  rules.checker.report(DiagnosticKind::TexelFormat, access.span, {buffer.name, name(buffer.format), "shaders see what the engine brings through a copy"})
+      .note(DiagnosticKind::DeclaredHere, buffer.span, {buffer.name});
 }
 
 void check_stages(const Rules& rules, const Access& access) {
@@ -186,6 +211,13 @@ std::string size_text(const Rules& rules, const Access& access, const std::vecto
          std::to_string(side(rules, image.height, access.range.mip, extents));
 }
 
+// Layers of the target: those of the image, or slices of a volume.
+uint32_t target_layers(const Rules& rules, const Access& access) {
+  const Resource& image = rules.resource(access);
+  if (image.dimension != Dimension::d3) return layer_count(image, access.range);
+  return is_slice(access) ? access.range.slices : static_cast<uint32_t>(side(rules, image.depth, access.range.mip, initial_extents(rules.checker.program)));
+}
+
 void compare_attachments(const Rules& rules, const Access& first, const Access& other) {
   const Resource &a = rules.resource(first), &b = rules.resource(other);
   const auto report = [&](DiagnosticKind kind, std::string one, std::string two) {
@@ -198,8 +230,33 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
     if (one != two) return report(DiagnosticKind::AttachmentSizes, two, one);
   }
   if (a.samples != b.samples) return report(DiagnosticKind::AttachmentSamples, std::to_string(b.samples), std::to_string(a.samples));
-  const uint32_t one = layer_count(a, first.range), two = layer_count(b, other.range);
+  const uint32_t one = target_layers(rules, first), two = target_layers(rules, other);
   if (one != two) report(DiagnosticKind::AttachmentLayers, std::to_string(two), std::to_string(one));
+}
+
+// Vulkan 1.3 promises six views; views of volumes are no arrays; other stages would need features of their own.
+const char* multiview_fault(const Rules& rules) {
+  constexpr uint32_t kMostViews = 6;
+  const auto first = std::find_if(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return is_attachment(access.role); });
+  if (first == rules.pass.accesses.end()) return "views are layers of attachments, and it has none";
+  if (rules.resource(*first).dimension == Dimension::d3) return "slices of volumes are no views";
+  if (layer_count(rules.resource(*first), first->range) > kMostViews) return "not every device has more than six";
+  const bool plain = std::all_of(rules.pass.shaders.begin(), rules.pass.shaders.end(),
+                                 [](const Shader& shader) { return shader.stage == stage_vertex || shader.stage == stage_fragment; });
+  return plain ? nullptr : "views take vertex and fragment shaders";
+}
+
+void check_multiview(const Rules& rules) {
+  if (!rules.pass.multiview) return;
+  if (const char* fault = multiview_fault(rules)) rules.checker.report(DiagnosticKind::MultiviewOfPass, rules.pass.span, {rules.pass.name, fault});
+}
+
+void check_state(const Rules& rules) {
+  if (!rules.pass.state.valid()) return;
+  const State& state = rules.checker.program.states[rules.pass.state];
+  const bool has = std::any_of(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return access.role == Role::stencil; });
+  if (state.stencil_test && !has)
+    rules.checker.report(DiagnosticKind::StencilMissing, rules.pass.span, {rules.pass.name, state.name}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});
 }
 
 void check_attachments(const Rules& rules) {
@@ -221,11 +278,6 @@ void check_attachments(const Rules& rules) {
 bool overlap(uint32_t a, uint32_t a_count, uint32_t b, uint32_t b_count) {
   const uint64_t a_end = a_count == kAll ? UINT64_MAX : uint64_t{a} + a_count, b_end = b_count == kAll ? UINT64_MAX : uint64_t{b} + b_count;
   return a < b_end && b < a_end;
-}
-
-std::optional<int64_t> known(const Rules& rules, ExprId id) {
-  if (!id.valid() || rules.checker.program.exprs[id].op != ExprOp::constant) return std::nullopt;
-  return rules.checker.program.exprs[id].value;
 }
 
 // Byte ranges that are not known now may overlap.
@@ -284,6 +336,9 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
     const bool fits = check_role(rules, access);
     roles_fit = roles_fit && fits;
     if (fits && rules.resource(access).kind == ResourceKind::image) check_image_use(rules, access);
+    const bool in_block = fits && (access.role == Role::storage || access.role == Role::uniform);
+    if (in_block) check_not_packed(checker, rules.resource(access).element.record, access.span);
+    if (fits && is_shader_role(access.role)) check_imported_texels(rules, access);
     const bool sampled_texels = rules.resource(access).kind == ResourceKind::buffer && access.sampler.valid();
     if (sampled_texels) checker.report(DiagnosticKind::SamplerOfRole, access.span, {word_of(access.role)});
     if (fits && access.role == Role::storage && rules.resource(access).format != Format::none && rules.resource(access).kind == ResourceKind::buffer)
@@ -291,6 +346,8 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
   }
   if (!roles_fit) return;
   check_attachments(rules);
+  check_state(rules);
+  check_multiview(rules);
   check_conflicts(rules);
   check_names(rules);
 }

@@ -160,9 +160,9 @@ void read_per_draw(Builder& at, const ast::PerDraw& node) {
   constexpr uint32_t kMaxPushBytes = 128;  // what every Vulkan device has
   const StructId type = node.declaration ? struct_in_place(at.checker, at.scope.module, *node.declaration)
                                          : find_struct(at.checker, at.scope.module, *node.type);
-  if (!type.valid()) return void(at.out.dropped = true);
-  const Struct& record = at.checker.program.structs[type];
   const Span span = node.type ? node.type->span : node.name.span;
+  if (!type.valid() || !check_not_packed(at.checker, type, span)) return void(at.out.dropped = true);
+  const Struct& record = at.checker.program.structs[type];
   if (record.size430 > kMaxPushBytes)
     return fail(at, DiagnosticKind::PushConstantsTooLarge, span, {record.name, std::to_string(record.size430), std::to_string(kMaxPushBytes)});
   at.out.pass.draw.per_draw = type;
@@ -180,16 +180,19 @@ void visit(Builder& at, const ast::DrawStatement& node) {
     read_indirect_draw(at, node);
   else if (node.vertices) {
     draw.kind = DrawKind::direct;
+    draw.indexed = node.indexed;
     draw.vertices = count_expr(at, node.vertices);
     draw.instances = count_expr(at, node.instances);
+    if (node.first) draw.first = count_expr(at, node.first);
+    if (node.offset) draw.offset = count_expr(at, node.offset);
   }
   if (node.per_draw) read_per_draw(at, *node.per_draw);
-  for (const ast::Expr& name : node.vertex) {
-    const StructId type = find_struct(at.checker, at.scope.module, name);
+  for (const ast::VertexStatement& vertex : node.vertex) {
+    const StructId type = find_struct(at.checker, at.scope.module, vertex.type);
     if (!type.valid())
       at.out.dropped = true;
     else
-      draw.vertex.push_back(type);
+      draw.vertex.push_back({type, vertex.per_instance, kAll});
   }
 }
 
@@ -198,7 +201,7 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   const std::string name(node.name.text);
   if (node.type) {
     const StructId type = find_struct(at.checker, at.scope.module, *node.type);
-    if (!type.valid()) return void(at.out.dropped = true);
+    if (!type.valid() || !check_not_packed(at.checker, type, node.type->span)) return void(at.out.dropped = true);
     at.out.pass.params.push_back(at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span}));
     return;
   }
@@ -242,6 +245,12 @@ void read_state(Builder& at, const ast::WordStatement& node) {
   at.out.pass.state = state_of(at.checker, *symbol);
 }
 
+void read_multiview(Builder& at, const ast::WordStatement& node) {
+  if (at.out.pass.kind != PassKind::raster) return fail(at, DiagnosticKind::MultiviewOfPass, node.span, {at.out.pass.name, "it is no raster pass"});
+  if (at.out.pass.multiview) return fail(at, DiagnosticKind::RepeatedWork, node.span, {"multiview"});
+  at.out.pass.multiview = true;
+}
+
 void visit_all(Builder& at, const std::vector<ast::Statement>& statements);
 
 // `with world`: the statements of the bundle, as if they stood here.
@@ -272,6 +281,7 @@ void read_bundle(Builder& at, const ast::Expr& value) {
 
 void visit(Builder& at, const ast::WordStatement& node) {
   if (node.word.text == "keep") return void(at.out.pass.keep = true);
+  if (node.word.text == "multiview") return read_multiview(at, node);
   if (!node.value || node.value->kind == ast::ExprKind::error) return void(at.out.dropped = true);
   if (node.word.text == "after") return read_after(at, *node.value);
   if (node.word.text == "state") return read_state(at, node);
@@ -337,10 +347,24 @@ bool may_leave(const Builder& at, const Access& access) {
   return (pass.kind == PassKind::raster && !at.fullscreen) || pass.dispatch.kind == DispatchKind::indirect;
 }
 
+// Tests that fragments may fail.
+bool may_reject(const Builder& at) {
+  const Pass& pass = at.out.pass;
+  if (!pass.state.valid()) return false;
+  const State& state = at.checker.program.states[pass.state];
+  const auto has = [&](uint32_t aspect) {
+    return std::any_of(pass.accesses.begin(), pass.accesses.end(),
+                       [&](const Access& access) { return is_attachment(access.role) && (access.range.aspects & aspect) != 0; });
+  };
+  const bool stencil = state.stencil_front.compare != Compare::always || state.stencil_back.compare != Compare::always;
+  return (state.depth_test && state.depth_compare != Compare::always && has(aspect_depth)) || (state.stencil_test && stencil && has(aspect_stencil));
+}
+
 void settle_modes(Builder& at) {
+  const bool fills = at.fullscreen && !may_reject(at);
   for (Access& access : at.out.pass.accesses) {
-    const bool covered = at.fullscreen && access.role == Role::color && !access.blend.enabled && access.mode == Mode::update;
-    if (covered) access.mode = Mode::write, access.covers = true;
+    const bool covered = fills && access.role == Role::color && !access.blend.enabled && access.mode == Mode::update && !access.clear;
+    if (covered) access.mode = is_slice(access) ? Mode::update : Mode::write, access.covers = true;
     if (access.mode == Mode::write && !access.clear && may_leave(at, access)) access.mode = Mode::update;
   }
 }
@@ -448,6 +472,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   check_work(at);
   if (at.out.dropped) return drop_pass(at);
   merge_reads_and_writes(at.out.pass);
+  if (!bind_buffers(checker, scope.graph, at.out.pass, at.draw_span)) return drop_pass(at);
   settle_modes(at);
   settle_stages(at.out.pass);
   name_hidden_accesses(at.out.pass);

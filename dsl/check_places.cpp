@@ -175,7 +175,7 @@ Place member_place(Walk walk, const Expr& expr) {
   const Span span{expr.span.file, expr.span.end - length, expr.span.end};
   walk.scope.incomplete = true;
   Diagnostic diagnostic(DiagnosticKind::UnknownPart, span, {std::string(expr.text)});
-  const std::string guess = closest(expr.text, {"mip", "mips", "layer", "layers", "depth", "stencil", "bytes", "prev", "view"});
+  const std::string guess = closest(expr.text, {"mip", "mips", "layer", "layers", "slice", "slices", "depth", "stencil", "bytes", "prev", "view"});
   if (!guess.empty()) diagnostic.fix(span, guess);
   walk.checker.diagnostics.report(std::move(diagnostic));
   return {};
@@ -211,6 +211,20 @@ Place take_mips(Walk walk, const Expr& call, Place place, bool many) {
 Place take_layers(Walk walk, const Expr& call, Place place, bool many) {
   const Resource& resource = walk.scope.graph.resources[place.resource];
   if (!narrow(walk, call, layer_count(resource, place.range), "layers", many, place.range.layer, place.range.layers)) return {};
+  return place;
+}
+
+// Slices that the image has at every extent; of a depth known now all of them are the whole.
+Place take_slices(Walk walk, const Expr& call, Place place, bool many) {
+  const Resource& image = walk.scope.graph.resources[place.resource];
+  if (image.dimension != Dimension::d3)
+    return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {image.name, "no 3D image", many ? "slices" : "slice"});
+  const Program& program = walk.checker.program;
+  const uint32_t depth = least_depth(program, image, place.range.mip);
+  uint32_t first = 0, count = 0;
+  if (!narrow(walk, call, depth, "slices", many, first, count)) return {};
+  const bool whole = count == depth && program.exprs[image.depth].op == ExprOp::constant;
+  if (!whole) place.range.slice = first, place.range.slices = count;
   return place;
 }
 
@@ -286,7 +300,8 @@ struct Part {
   bool of_images;
 };
 constexpr Part kParts[] = {{"mip", 1, true},   {"mips", 2, true},   {"layer", 1, true}, {"layers", 2, true},
-                           {"prev", 1, false}, {"bytes", 2, false}, {"view", 1, true}};
+                           {"prev", 1, false}, {"bytes", 2, false}, {"view", 1, true},
+                           {"slice", 1, true}, {"slices", 2, true}};
 
 Place called_place(Walk walk, const Expr& call) {
   const Expr& callee = call.operands[0];
@@ -305,6 +320,7 @@ Place called_place(Walk walk, const Expr& call) {
     return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {resource.name, is_image ? "an image" : "a buffer", std::string(part->name)});
   if (part->name == "mip" || part->name == "mips") return take_mips(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "layer" || part->name == "layers") return take_layers(walk, call, std::move(place), part->arguments == 2);
+  if (part->name == "slice" || part->name == "slices") return take_slices(walk, call, std::move(place), part->arguments == 2);
   if (part->name == "prev") return take_previous(walk, call, std::move(place));
   if (part->name == "view") return take_view(walk, call, std::move(place));
   return take_bytes(walk, call, std::move(place));
@@ -342,6 +358,13 @@ std::optional<std::string> evaluated_name(Checker& checker, GraphScope& scope, c
   }
   const auto indices = index_text(checker, scope, expr);
   return indices ? std::optional(spelled(family_of(expr)) + *indices) : std::nullopt;
+}
+
+uint32_t least_depth(const Program& program, const Resource& image, uint32_t mip) {
+  int64_t depth = INT64_MAX;
+  for (const auto& extents : {minimum_extents(program), initial_extents(program), maximum_extents(program)})
+    depth = std::min(depth, std::max<int64_t>(evaluate(program, image.depth, extents) >> mip, 1));
+  return static_cast<uint32_t>(depth);
 }
 
 uint32_t mip_count(const Resource& resource, const Range& range) { return range.mips == kAll ? resource.mips - range.mip : range.mips; }

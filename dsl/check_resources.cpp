@@ -233,7 +233,6 @@ const char* texel_fault(const Builder& at, const FormatInfo& format) {
   if (!format.is_color()) return "depth and stencil need an image";
   if (format.is_block()) return "blocks need an image";
   if (format.numeric == Numeric::srgb) return "buffers have no sRGB conversion";
-  if (at.resource.lifetime == Lifetime::imported) return "what the engine brings holds plain elements; see it through a copy";
   return at.resource.lifetime == Lifetime::readback ? "the host reads plain elements; copy it to a buffer that is read back" : nullptr;
 }
 
@@ -371,7 +370,7 @@ void declare_surface(Checker& checker, GraphScope& scope, const ast::Parameter& 
 void declare_params(Checker& checker, GraphScope& scope, const ast::Parameter& parameter) {
   const std::string name(parameter.name.text);
   const StructId type = find_struct(checker, scope.module, parameter.type);
-  if (!type.valid()) {
+  if (!type.valid() || !check_not_packed(checker, type, parameter.type.span)) {
     scope.failed[name] = true;
     return;
   }

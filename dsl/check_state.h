@@ -178,6 +178,9 @@ StructId struct_in_place(Checker& checker, uint32_t module, const ast::StructDec
 // The element of `T`, `T[n]`, `T[]`; count is left to the caller.
 std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::TypeName& type);
 
+// Reports a struct with fields of formats, which only vertex buffers can hold, and gives false.
+bool check_not_packed(Checker& checker, StructId record, Span span);
+
 // ---- check_states.cpp -------------------------------------------------------------------------------------------
 SamplerId sampler_of(Checker& checker, uint32_t symbol);
 StateId state_of(Checker& checker, uint32_t symbol);
@@ -214,6 +217,8 @@ bool check_writable(Checker& checker, GraphScope& scope, const Place& place, con
 // Silent probe: whether `expr` begins with the name of a resource.
 bool names_resource(const GraphScope& scope, const ast::Expr& expr);
 Value size_of(Checker& checker, GraphScope& scope, const Place& place);
+// Of a 3D image at every extent.
+uint32_t least_depth(const Program& program, const Resource& image, uint32_t mip);
 uint32_t mip_count(const Resource& resource, const Range& range);
 uint32_t layer_count(const Resource& resource, const Range& range);
 
@@ -241,8 +246,12 @@ FusionId declare_fusion(Checker& checker, GraphScope& scope, const ast::Fuse& no
 void finish_fusion(Checker& checker, const GraphScope& scope, FusionId fusion);
 void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
 void merge_reads_and_writes(Pass& pass);
+// ---- check_draws.cpp
+// Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a report.
+bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
 void name_hidden_accesses(Pass& pass);
 bool is_shader_role(Role role);
+bool is_attachment(Role role);
 bool is_written(Mode mode);
 
 // ---- check_control.cpp ------------------------------------------------------------------------------------------

@@ -30,6 +30,15 @@ constexpr Word<bool> kSwitches[] = {{"on", true}, {"off", false}};
 constexpr Word<Topology> kTopologies[] = {
     {"points", Topology::points}, {"lines", Topology::lines}, {"triangles", Topology::triangles}, {"triangle_strip", Topology::triangle_strip}};
 
+constexpr Word<StencilOp> kStencilOps[] = {{"keep", StencilOp::keep},
+                                           {"zero", StencilOp::zero},
+                                           {"replace", StencilOp::replace},
+                                           {"increment", StencilOp::increment},
+                                           {"decrement", StencilOp::decrement},
+                                           {"invert", StencilOp::invert},
+                                           {"increment_wrap", StencilOp::increment_wrap},
+                                           {"decrement_wrap", StencilOp::decrement_wrap}};
+
 // The value of a setting's word; reports a word that is none of `words`.
 template <class Enum, size_t Count>
 bool read_word(Checker& checker, const ast::Setting& setting, const Word<Enum> (&words)[Count], Enum& out) {
@@ -83,6 +92,31 @@ void read_bias(Checker& checker, uint32_t module, const ast::Setting& setting, S
   const auto slope = evaluate_number(checker, nullptr, module, setting.values[1]);
   state.depth_bias_constant = static_cast<float>(constant.value_or(0));
   state.depth_bias_slope = static_cast<float>(slope.value_or(0));
+}
+
+void read_stencil_setting(Checker& checker, uint32_t module, const ast::Setting& setting, StencilFace& face) {
+  const std::string_view word = setting.second.text;
+  if (word == "test") read_word(checker, setting, kCompares, face.compare);
+  if (word == "fail") read_word(checker, setting, kStencilOps, face.fail);
+  if (word == "depth_fail") read_word(checker, setting, kStencilOps, face.depth_fail);
+  if (word == "pass") read_word(checker, setting, kStencilOps, face.pass);
+  if (setting.values.empty()) return;
+  const auto value = evaluate_integer(checker, nullptr, module, setting.values[0], 0, 255);
+  if (!value) return;
+  uint8_t& number = word == "reference" ? face.reference : word == "read_mask" ? face.read_mask : face.write_mask;
+  number = static_cast<uint8_t>(*value);
+}
+
+// What is said of both faces holds where nothing is said of one.
+void read_stencil(Checker& checker, uint32_t module, const std::vector<ast::Setting>& settings, State& state) {
+  const auto each = [&](std::string_view word, StencilFace& face) {
+    for (const ast::Setting& setting : settings)
+      if (setting.word.text == word) read_stencil_setting(checker, module, setting, face), state.stencil_test = true;
+  };
+  each("stencil", state.stencil_front);
+  state.stencil_back = state.stencil_front;
+  each("stencil_front", state.stencil_front);
+  each("stencil_back", state.stencil_back);
 }
 
 void read_state_setting(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
@@ -267,6 +301,7 @@ StateId state_of(Checker& checker, uint32_t symbol) {
     state.span = node.name.span;
     report_repeated(checker, node.settings);
     for (const ast::Setting& setting : node.settings) read_state_setting(checker, found.module, setting, state);
+    read_stencil(checker, found.module, node.settings, state);
     checker.symbols[symbol].id = checker.program.states.add(std::move(state)).value;
   }
   return StateId{size_t{checker.symbols[symbol].id}};

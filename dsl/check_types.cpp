@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "dsl/check_state.h"
+#include "dsl/format_table.h"
 #include "dsl/layout.h"
 
 namespace rg::dsl {
@@ -37,10 +38,20 @@ void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& nam
   checker.diagnostics.report(std::move(diagnostic));
 }
 
+// `color: rgba8`: bytes of the format, as vertices have them. Structs of that name come first.
+std::optional<Type> field_type(Checker& checker, uint32_t module, const ast::TypeName& node) {
+  const Format format = node.name.kind == ast::ExprKind::name ? find_format(node.name.text) : Format::none;
+  if (format == Format::none || peek_symbol(checker, module, node.name)) return element_type(checker, module, node);
+  if (is_vertex_format(format)) return packed_type(format);
+  checker.report(DiagnosticKind::VertexFormat, node.name.span, {std::string(node.name.text)});
+  return std::nullopt;
+}
+
 std::optional<Field> read_field(Checker& checker, uint32_t module, const ast::FieldDeclaration& node) {
   constexpr int64_t kMaxLength = 1 << 24;
-  const std::optional<Type> element = element_type(checker, module, node.type);
+  const std::optional<Type> element = field_type(checker, module, node.type);
   if (!element) return std::nullopt;
+  if (element->record.valid() && !check_not_packed(checker, element->record, node.type.span)) return std::nullopt;
   Field field;
   field.name = std::string(node.name.text);
   field.type = *element;
@@ -126,6 +137,16 @@ std::optional<Type> element_type(Checker& checker, uint32_t module, const ast::T
   type.record = find_struct(checker, module, node.name);
   if (!type.record.valid()) return std::nullopt;
   return type;
+}
+
+bool check_not_packed(Checker& checker, StructId id, Span span) {
+  if (!id.valid()) return true;
+  const Struct& record = checker.program.structs[id];
+  const auto packed = std::find_if(record.fields.begin(), record.fields.end(), [](const Field& field) { return field.type.packed != Format::none; });
+  if (packed == record.fields.end()) return true;
+  checker.report(DiagnosticKind::PackedInBlock, span, {record.name, packed->name, name(packed->type.packed)})
+      .note(DiagnosticKind::DeclaredHere, packed->span, {packed->name});
+  return false;
 }
 
 StructId find_struct(Checker& checker, uint32_t module, const ast::Expr& name) {

@@ -25,5 +25,10 @@ struct FormatInfo {
 const FormatInfo& info(Format format);
 Format find_format(std::string_view name);  // none if there is no such format
 std::vector<std::string_view> format_names();
+uint32_t components(Format format);  // of a texel that a shader reads: 3 of r11g11b10f, 1 of depth and stencil
+// Whether every device of Vulkan 1.3 reads vertices of the format (specification, required format support: VERTEX_BUFFER_BIT).
+bool is_vertex_format(Format format);
+// One element of it as shaders see it, with `packed` set.
+Type packed_type(Format format);
 
 }  // namespace rg::dsl

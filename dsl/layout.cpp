@@ -2,12 +2,20 @@
 
 #include <algorithm>
 
+#include "dsl/format_table.h"
+
 namespace rg::dsl {
 namespace {
 
 constexpr uint64_t kMaxBytes = uint64_t{1} << 31;
 
 uint64_t round_up(uint64_t value, uint64_t to) { return (value + to - 1) / to * to; }
+
+// Packed fields lie in vertex buffers, which have one layout: aligned to their bytes, to a word at most.
+TypeLayout packed_layout(const Type& type) {
+  const uint64_t bytes = info(type.packed).block_bytes;
+  return {bytes * std::max(type.count, 1u), std::min<uint64_t>(bytes, 4), bytes};
+}
 
 // Everything is aligned to its scalars, so nothing is padded.
 TypeLayout scalar_layout(const Table<StructId, Struct>& structs, const Type& type) {
@@ -52,6 +60,7 @@ bool place_field(const Table<StructId, Struct>& structs, const Type& type, Block
 }  // namespace
 
 TypeLayout layout_of(const Table<StructId, Struct>& structs, const Type& type, BlockLayout layout) {
+  if (type.packed != Format::none) return packed_layout(type);
   if (layout == BlockLayout::scalar) return scalar_layout(structs, type);
   TypeLayout result = element_layout(structs, type, layout);
   const bool is140 = layout == BlockLayout::std140;
@@ -62,7 +71,7 @@ TypeLayout layout_of(const Table<StructId, Struct>& structs, const Type& type, B
 }
 
 uint64_t scalar_size(const Table<StructId, Struct>& structs, const Type& type) {
-  uint64_t size = 4ull * type.rows * type.columns;
+  uint64_t size = type.packed == Format::none ? 4ull * type.rows * type.columns : info(type.packed).block_bytes;
   if (type.record.valid()) {
     size = 0;
     for (const Field& field : structs[type.record].fields) size += scalar_size(structs, field.type);
@@ -79,7 +88,7 @@ bool lay_out(const Table<StructId, Struct>& structs, Struct& record, bool scalar
       field.offset140 = field.offset430;
     }
     record.align140 = record.align430 = 4;
-    record.size140 = record.size430 = static_cast<uint32_t>(at430.offset);
+    record.size140 = record.size430 = static_cast<uint32_t>(round_up(at430.offset, 4));
     return true;
   }
   at140.align = 16;

@@ -14,7 +14,7 @@ constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
                                             "clear",  "fill",   "host",   "after",    "keep",  "fullscreen", "features", "spectrum",
-                                            "with",   "block"};
+                                            "with",   "block",  "multiview"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {

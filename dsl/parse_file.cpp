@@ -88,6 +88,10 @@ SamplerDeclaration parse_sampler(Parser& parser) {
   return sampler;
 }
 
+#define RG_STENCIL(word)                                                                                                          \
+  {word, "test", 1, 0}, {word, "fail", 1, 0}, {word, "depth_fail", 1, 0}, {word, "pass", 1, 0}, {word, "reference", 0, 1}, \
+      {word, "read_mask", 0, 1}, {word, "write_mask", 0, 1}
+
 StateDeclaration parse_state(Parser& parser) {
   StateDeclaration state;
   parser.take();
@@ -99,10 +103,14 @@ StateDeclaration parse_state(Parser& parser) {
                                    {"depth", "write", 1, 0},
                                    {"bias", "", 0, 2},
                                    {"topology", "", 1, 0},
-                                   {"alpha_to_coverage", "", 0, 0}},
+                                   {"alpha_to_coverage", "", 0, 0},
+                                   RG_STENCIL("stencil"),
+                                   RG_STENCIL("stencil_front"),
+                                   RG_STENCIL("stencil_back")},
                                   "a state");
   return state;
 }
+#undef RG_STENCIL
 
 ConditionDeclaration parse_condition(Parser& parser) {
   ConditionDeclaration condition;

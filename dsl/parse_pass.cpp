@@ -131,10 +131,11 @@ void parse_draw_block(Parser& parser, ast::DrawStatement& draw) {
   parse_block(parser, Level::fields, [&] {
     if (parser.is_word("per_draw") && !draw.per_draw) {
       draw.per_draw = parse_per_draw(parser);
-    } else if (parser.accept_word("vertex")) {
-      draw.vertex.push_back(parse_place(parser, "a struct"));
+    } else if (parser.is_word("vertex") || parser.is_word("instance")) {
+      const bool per_instance = parser.take_name().text == "instance";
+      draw.vertex.push_back({parse_place(parser, "a struct"), per_instance});
     } else {
-      parser.unexpected("`per_draw` or `vertex`");
+      parser.unexpected("`per_draw`, `vertex` or `instance`");
     }
   });
 }
@@ -147,24 +148,27 @@ void parse_indirect(Parser& parser, ast::DrawStatement& draw) {
   if (!parser.silent && parser.accept_word("count")) draw.counts = parse_place(parser, "a buffer that holds the count");
 }
 
+// `draw 36 instances 8 first 3`, `draw indexed 36 instances 8 first 3 offset 24`
+void parse_direct(Parser& parser, ast::DrawStatement& draw) {
+  draw.vertices = parse_expression(parser, draw.indexed ? "a number of indices, or `indirect`" : "a number of vertices, `indirect`, `indexed` or `host`");
+  if (!parser.silent && parser.accept_word("instances")) draw.instances = parse_expression(parser, "a number of instances");
+  if (!parser.silent && parser.accept_word("first")) draw.first = parse_expression(parser, draw.indexed ? "the first index" : "the first vertex");
+  if (!parser.silent && draw.indexed && parser.accept_word("offset")) draw.offset = parse_expression(parser, "what is added to every index");
+}
+
 ast::DrawStatement parse_draw(Parser& parser) {
   ast::DrawStatement draw;
   const uint32_t begin = parser.peek().begin;
   parser.take();
   if (parser.accept_word("host")) {
     draw.host = true;
-  } else if (parser.accept_word("indexed")) {
-    draw.indexed = true;
-    parse_indirect(parser, draw);
-  } else if (parser.is_word("indirect")) {
-    parse_indirect(parser, draw);
   } else {
-    draw.vertices = parse_expression(parser, "a number of vertices, `indirect`, `indexed` or `host`");
-    if (!parser.silent && parser.accept_word("instances")) draw.instances = parse_expression(parser, "a number of instances");
+    draw.indexed = parser.accept_word("indexed");
+    parser.is_word("indirect") ? parse_indirect(parser, draw) : parse_direct(parser, draw);
   }
   draw.span = parser.since(begin);
   if (!parser.silent) parse_draw_block(parser, draw);
-  complain_about_rest(parser, {"max", "count", "instances"});
+  complain_about_rest(parser, {"max", "count", "instances", "first", "offset"});
   return draw;
 }
 
@@ -219,7 +223,7 @@ ast::WordStatement parse_word_statement(Parser& parser) {
   ast::WordStatement statement;
   const uint32_t begin = parser.peek().begin;
   statement.word = parser.take_name();
-  if (statement.word.text != "keep") statement.value = parse_place(parser, "a name");
+  if (statement.word.text != "keep" && statement.word.text != "multiview") statement.value = parse_place(parser, "a name");
   statement.span = parser.since(begin);
   complain_about_rest(parser, {});
   return statement;

@@ -26,6 +26,7 @@ constexpr const char* kCompares[] = {"never", "less", "equal", "less_equal", "gr
 constexpr const char* kFilters[] = {"nearest", "linear"};
 constexpr const char* kAddresses[] = {"repeat", "mirror", "clamp", "border"};
 constexpr const char* kCulls[] = {"none", "front", "back"};
+constexpr const char* kStencilOps[] = {"keep", "zero", "replace", "increment", "decrement", "invert", "increment_wrap", "decrement_wrap"};
 constexpr const char* kTopologies[] = {"points", "lines", "triangles", "triangle_strip"};
 constexpr const char* kBlendOps[] = {"add", "subtract", "reverse_subtract", "min", "max"};
 constexpr const char* kFactors[] = {"zero",      "one",
@@ -92,11 +93,19 @@ void print_sampler(Printer& at, const Sampler& sampler) {
           sampler.max_anisotropy > 0 ? fmt::format(" anisotropy {}", sampler.max_anisotropy) : "");
 }
 
+std::string stencil_text(const StencilFace& face) {
+  return fmt::format("test {} fail {} depth_fail {} pass {} masks {} {} reference {}", word(kCompares, face.compare), word(kStencilOps, face.fail),
+                     word(kStencilOps, face.depth_fail), word(kStencilOps, face.pass), face.read_mask, face.write_mask, face.reference);
+}
+
 void print_state(Printer& at, const State& state) {
   at.line("state {} cull {} front {} depth test {} write {} bias {} {} topology {}{}", state.name, word(kCulls, state.cull),
           state.front_clockwise ? "clockwise" : "counter_clockwise", state.depth_test ? word(kCompares, state.depth_compare) : "off",
           state.depth_write ? "on" : "off", state.depth_bias_constant, state.depth_bias_slope, word(kTopologies, state.topology),
           state.alpha_to_coverage ? " alpha_to_coverage" : "");
+  if (!state.stencil_test) return;
+  at.line("  stencil front {}", stencil_text(state.stencil_front));
+  at.line("  stencil back {}", stencil_text(state.stencil_back));
 }
 
 std::string shape_text(const Program& program, const Resource& resource) {
@@ -157,6 +166,7 @@ void print_access(Printer& at, const Graph& graph, size_t index, const Access& a
   std::string text =
       fmt::format("    a{} {} {}{}", index, word(kModes, access.mode), resource.name, access.age ? fmt::format(".prev({})", access.age) : "");
   text += range_text(at.program, resource, access.range);
+  if (is_slice(access)) text += " slices " + span_text(access.range.slice, access.range.slices);
   if (access.view != Format::none) text += fmt::format(" view {}", name(access.view));
   text += fmt::format(" as {}", word(kRoles, access.role));
   if (access.sampler.valid()) text += fmt::format("({})", at.program.samplers[access.sampler].name);
@@ -175,11 +185,17 @@ void print_draw(Printer& at, const Draw& draw) {
   std::string text = fmt::format("    draw {}", word(kDraws, draw.kind));
   if (draw.kind == DrawKind::direct)
     text += fmt::format(" {} instances {}", print_expr(at.program, draw.vertices), print_expr(at.program, draw.instances));
+  if (draw.first.valid()) text += " first " + print_expr(at.program, draw.first);
+  if (draw.offset.valid()) text += " offset " + print_expr(at.program, draw.offset);
+  if (draw.indices != kAll) text += " indices " + index_text(draw.indices);
   if (draw.arguments != kAll)
     text += fmt::format(" {} max {} stride {}{}", index_text(draw.arguments), draw.max_draws, draw.stride, draw.indexed ? " indexed" : "");
   if (draw.counts != kAll) text += " count " + index_text(draw.counts);
   if (draw.per_draw.valid()) text += " per_draw " + at.program.structs[draw.per_draw].name;
-  for (const StructId vertex : draw.vertex) text += " vertex " + at.program.structs[vertex].name;
+  for (const VertexInput& vertex : draw.vertex) {
+    text += (vertex.per_instance ? " instance " : " vertex ") + at.program.structs[vertex.type].name;
+    if (vertex.buffer != kAll) text += " from " + index_text(vertex.buffer);
+  }
   at.line("{}", text);
 }
 
@@ -207,6 +223,7 @@ std::string heading(const Program& program, const Graph& graph, const Pass& pass
   if (!pass.bind.empty()) text += " bind " + pass.bind;
   for (const PassId other : pass.after) text += " after " + graph.passes[other].name;
   if (pass.keep) text += " keep";
+  if (pass.multiview) text += " multiview";
   for (const ConditionId condition : pass.conditions) text += " if host " + program.conditions[condition].name;
   for (const MipLimit& limit : pass.mip_limits) text += fmt::format(" needs {}.mip({})", graph.resources[limit.image].name, limit.mip);
   return text + guard_text(program, pass.guard);
@@ -293,6 +310,8 @@ std::string print_type(const Program& program, const Type& type) {
   std::string text;
   if (type.record.valid())
     text = program.structs[type.record].name;
+  else if (type.packed != Format::none)
+    text = name(type.packed);
   else if (type.columns > 1)
     text = type.rows == type.columns ? fmt::format("mat{}", type.rows) : fmt::format("mat{}x{}", type.columns, type.rows);
   else if (type.rows > 1)

@@ -104,13 +104,16 @@ void visit(Printer& at, const ShaderStatement& node) {
 void visit(Printer& at, const DispatchStatement& node) { at.line("dispatch " + text(node.how) + text(node.size)); }
 
 void visit(Printer& at, const DrawStatement& node) {
-  std::string out = node.host ? "draw host" : node.indexed ? "draw indexed indirect" : node.indirect ? "draw indirect" : "draw";
+  std::string out = node.host ? "draw host" : node.indirect ? "draw indirect" : "draw";
+  if (node.indexed) out.insert(4, " indexed");
   out += text(node.vertices) + text(node.arguments);
   if (node.instances) out += " instances" + text(node.instances);
+  if (node.first) out += " first" + text(node.first);
+  if (node.offset) out += " offset" + text(node.offset);
   if (node.max_draws) out += " max" + text(node.max_draws);
   if (node.counts) out += " count" + text(node.counts);
   if (node.per_draw) out += " per_draw " + (node.per_draw->type ? text(*node.per_draw->type) : text(node.per_draw->name));
-  for (const ast::Expr& vertex : node.vertex) out += " vertex " + text(vertex);
+  for (const ast::VertexStatement& vertex : node.vertex) out += (vertex.per_instance ? " instance " : " vertex ") + text(vertex.type);
   at.line(out);
 }
 

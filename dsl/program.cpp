@@ -124,5 +124,6 @@ int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& 
 
 std::vector<int64_t> initial_extents(const Program& program) { return flatten(program, &Extent::initial); }
 std::vector<int64_t> maximum_extents(const Program& program) { return flatten(program, &Extent::maximum); }
+std::vector<int64_t> minimum_extents(const Program& program) { return flatten(program, &Extent::minimum); }
 
 }  // namespace rg::dsl

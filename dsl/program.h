@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "dsl/fixed_function.h"
 #include "dsl/ids.h"
 #include "dsl/source.h"
 
@@ -61,12 +62,21 @@ struct Extent {
 
 // ---- types ------------------------------------------------------------------------------------------------------
 
+enum class Format : uint8_t {
+  none,
+#define RG_FORMAT(name, ...) name,
+#include "dsl/format.def"
+#undef RG_FORMAT
+};
+const char* name(Format format);
+
 enum class Scalar : uint8_t { f32, i32, u32, boolean };
 struct Type {  // scalar, vector (columns 1), matrix, or struct; `count` 0 means not an array
   Scalar scalar = Scalar::f32;
   uint8_t rows = 1, columns = 1;
   StructId record;  // valid: a struct, and the fields above are unused
   uint32_t count = 0;
+  Format packed = Format::none;  // of a vertex: the format of its bytes, which shaders see as what stands above
   friend bool operator==(const Type&, const Type&) = default;
 };
 struct Field {
@@ -84,57 +94,7 @@ struct Struct {
   friend bool operator==(const Struct&, const Struct&) = default;
 };
 
-// ---- fixed-function state ---------------------------------------------------------------------------------------
-
-enum class Filter : uint8_t { nearest, linear };
-enum class AddressMode : uint8_t { repeat, mirror, clamp, border };
-enum class Compare : uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
-struct Sampler {
-  std::string name;
-  Filter filter = Filter::nearest, mip_filter = Filter::nearest;
-  AddressMode address = AddressMode::clamp;
-  std::optional<Compare> compare;
-  float max_anisotropy = 0;  // 0: off
-  Span span;
-  friend bool operator==(const Sampler&, const Sampler&) = default;
-};
-
-enum class BlendFactor : uint8_t {
-  zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
-};
-enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };
-struct Blend {  // of one colour attachment; disabled unless declared on it
-  bool enabled = false;
-  BlendOp op = BlendOp::add;
-  BlendFactor src = BlendFactor::one, dst = BlendFactor::zero;
-  BlendFactor src_alpha = BlendFactor::one, dst_alpha = BlendFactor::zero;
-  friend bool operator==(const Blend&, const Blend&) = default;
-};
-enum class Cull : uint8_t { none, front, back };
-enum class Topology : uint8_t { points, lines, triangles, triangle_strip };
-struct State {
-  std::string name;
-  Cull cull = Cull::back;
-  bool front_clockwise = false;
-  bool depth_test = false;
-  Compare depth_compare = Compare::greater_equal;
-  bool depth_write = true;  // only where the pass may write depth
-  float depth_bias_constant = 0, depth_bias_slope = 0;
-  Topology topology = Topology::triangles;
-  bool alpha_to_coverage = false;
-  Span span;
-  friend bool operator==(const State&, const State&) = default;
-};
-
 // ---- resources --------------------------------------------------------------------------------------------------
-
-enum class Format : uint8_t {
-  none,
-#define RG_FORMAT(name, ...) name,
-#include "dsl/format.def"
-#undef RG_FORMAT
-};
-const char* name(Format format);
 
 enum class ResourceKind : uint8_t { image, buffer };
 enum class Dimension : uint8_t { d1, d2, d3, cube };
@@ -221,6 +181,7 @@ struct Range {  // of one image or buffer; kAll counts reach to the end
   uint32_t aspects = 0;  // 1 colour, 2 depth, 4 stencil; 0: those of the format
   uint32_t mip = 0, mips = kAll, layer = 0, layers = kAll;
   ExprId offset, size;   // buffer bytes; invalid: whole
+  uint32_t slice = 0, slices = kAll;  // of a 3D image as an attachment; synchronisation knows mips, not slices
   friend bool operator==(const Range&, const Range&) = default;
 };
 
@@ -256,14 +217,22 @@ struct Shader {
 };
 
 enum class DrawKind : uint8_t { none, fullscreen, direct, indirect, indirect_count, host };
+struct VertexInput {  // one binding
+  StructId type;
+  bool per_instance = false;
+  uint32_t buffer = kAll;  // index into Pass::accesses, role vertex; kAll: the host binds it
+  friend bool operator==(const VertexInput&, const VertexInput&) = default;
+};
 struct Draw {
   DrawKind kind = DrawKind::none;
-  ExprId vertices, instances;   // direct
+  ExprId vertices, instances;   // direct; indices where indexed
+  ExprId first, offset;         // direct: of the first vertex or index, and what is added to indices; invalid: 0
   uint32_t arguments = kAll, counts = kAll;  // indices into Pass::accesses, role indirect
   uint32_t max_draws = 1, stride = 16;       // indirect: VkDrawIndirectCommand; indexed: 20
   bool indexed = false;
+  uint32_t indices = kAll;      // index into Pass::accesses, role index; kAll: none, or the host binds them
   StructId per_draw;            // push constants of each draw
-  std::vector<StructId> vertex; // one binding each, in order; locations run on through the fields
+  std::vector<VertexInput> vertex;  // in order; locations run on through the fields
   friend bool operator==(const Draw&, const Draw&) = default;
 };
 
@@ -337,6 +306,7 @@ struct Pass {
   std::string bind;        // `bind engine.materials`: a set the engine owns, set 0 or 2 by declaration
   std::vector<PassId> after;
   bool keep = false;       // never culled
+  bool multiview = false;  // raster: each layer of the attachments is a view, drawn at once
   Guard guard;
   std::vector<ConditionId> conditions;  // latched host conditions, all must hold
   std::vector<MipLimit> mip_limits;
@@ -399,6 +369,9 @@ struct Graph {
   ~Graph();
   bool operator==(const Graph&) const;
 };
+
+// Whether an attachment leaves part of its mip as it is, whatever it clears or covers.
+inline bool is_slice(const Access& access) { return access.range.slices != kAll; }
 
 // The format in which the pass sees the image.
 inline Format seen_format(const Resource& image, const Access& access) { return access.view == Format::none ? image.format : access.view; }
@@ -496,5 +469,6 @@ int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& 
 // The extents' initial (or maximal) values in the form evaluate() takes.
 std::vector<int64_t> initial_extents(const Program& program);
 std::vector<int64_t> maximum_extents(const Program& program);
+std::vector<int64_t> minimum_extents(const Program& program);
 
 }  // namespace rg::dsl

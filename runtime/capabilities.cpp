@@ -1,6 +1,7 @@
 #include "runtime/capabilities.h"
 
 #include <array>
+#include <cstdio>
 
 #include "runtime/features.h"
 
@@ -18,9 +19,9 @@ constexpr Extension kExtensions[] = {{Capability::conservative_rasterization, VK
 }  // namespace
 
 std::string_view name(Capability capability) {
-  static constexpr std::array<std::string_view, 11> kNames = {
+  static constexpr std::array<std::string_view, 12> kNames = {
       "none",        "subgroup_arithmetic", "subgroup_ballot",           "subgroup_shuffle", "subgroup_quad", "subgroup_size_32", "subgroup_size_64",
-      "depth_bounds", "conservative_rasterization", "barycentrics", "sample_locations"};
+      "depth_bounds", "conservative_rasterization", "barycentrics", "sample_locations", "multiview"};
   return kNames[static_cast<size_t>(capability)];
 }
 
@@ -50,12 +51,25 @@ uint32_t subgroup_capabilities(const Device::State& state) {
   return bits & ~state.without;
 }
 
+bool draws_every_view(const Device::State& state) {
+  constexpr unsigned kSound = 25;  // of Mesa, the oldest that was seen to; the driver's own version is 1 in all of them
+  VkPhysicalDeviceDriverProperties driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &driver;
+  state.vk.GetPhysicalDeviceProperties2(state.physical, &properties);
+  unsigned mesa = 0;
+  return driver.driverID != VK_DRIVER_ID_MESA_LLVMPIPE || (std::sscanf(driver.driverInfo, "Mesa %u", &mesa) == 1 && mesa >= kSound);
+}
+
 uint32_t enabled_capabilities(const EnabledFeatures& features) {
   uint32_t bits = 0;
   if (features.depth_bounds) bits |= bit(Capability::depth_bounds);
   if (features.conservative_rasterization) bits |= bit(Capability::conservative_rasterization);
   if (features.barycentrics) bits |= bit(Capability::barycentrics);
   if (features.sample_locations) bits |= bit(Capability::sample_locations);
+  if (features.multiview) bits |= bit(Capability::multiview);
   return bits;
 }
 

@@ -16,6 +16,9 @@ std::vector<const char*> capability_extensions(const Device::State& state);
 // Of the physical device, as bits: subgroups. The others have to be enabled, see EnabledFeatures.
 uint32_t subgroup_capabilities(const Device::State& state);
 
+// False where the driver says that it has multiview and draws the first view alone: lavapipe of Mesa 22.3.
+bool draws_every_view(const Device::State& state);
+
 uint32_t enabled_capabilities(const EnabledFeatures& features);
 
 }  // namespace rg

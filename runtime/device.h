@@ -42,7 +42,7 @@ struct EnabledFeatures {
   bool pipeline_statistics = false;  // else there are none
   bool load_op_none = false;         // VK_EXT_load_store_op_none; else attachments that are not touched are loaded
   // Answers to `feature NAME : device CAPABILITY`.
-  bool depth_bounds = false, conservative_rasterization = false, barycentrics = false, sample_locations = false;
+  bool depth_bounds = false, conservative_rasterization = false, barycentrics = false, sample_locations = false, multiview = false;
 };
 // An engine's device. Must be Vulkan 1.3 with synchronization2, dynamicRendering and timelineSemaphore enabled. Nothing is owned: everything here
 // outlives the Device.

@@ -197,14 +197,22 @@ struct TransferTable {
   VkDeviceSize upload_bytes = 0, upload_now = 0;  // room, and bytes of this frame
 };
 
+struct DrawTable {  // of draws that the plan records
+  uint32_t first = 0;
+  int32_t vertex_offset = 0;
+  VkDeviceSize indices_offset = 0;
+  std::vector<VkDeviceSize> vertex_offsets;  // by binding
+};
+
 struct PassTable {
   bool runs = true;  // every mip that it touches exists
   PassInfo info;
   RenderingTable rendering;        // of this pass alone
   RenderingTable whole_rendering;  // of all passes of its rendering, where it is the first of several
   SetTable set;
-  uint32_t x = 1, y = 1, z = 1;  // groups, or vertices and instances
+  uint32_t x = 1, y = 1, z = 1;  // groups, or vertices or indices and instances
   VkDeviceSize arguments_offset = 0;
+  DrawTable draw;
   std::vector<TransferTable> transfers;
 };
 

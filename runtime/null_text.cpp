@@ -73,6 +73,7 @@ void print_struct(NullLine& line, const VkDependencyInfo& info) {
 void print_struct(NullLine& line, const VkRenderingInfo& info) {
   print_struct(line, info.renderArea);
   pair(line, " layers ", info.layerCount);
+  if (info.viewMask != 0) line.text(" views "), line.hex(info.viewMask);
   for (uint32_t i = 0; i < info.colorAttachmentCount; ++i) attachment(line, " color [", &info.pColorAttachments[i]);
   attachment(line, " depth [", info.pDepthAttachment);
   attachment(line, " stencil [", info.pStencilAttachment);
@@ -164,6 +165,7 @@ void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info) {
 }
 
 void print_struct(NullLine& line, const VkDescriptorSet& info) { line.handle(info); }
+void print_struct(NullLine& line, const VkBuffer& info) { line.handle(info); }
 
 void print_struct(NullLine& line, const VkWriteDescriptorSet& info) {
   line.handle(info.dstSet);

@@ -89,6 +89,7 @@ void print_struct(NullLine& line, const VkClearColorValue& info);
 void print_struct(NullLine& line, const VkClearDepthStencilValue& info);
 void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info);
 void print_struct(NullLine& line, const VkDescriptorSet& info);
+void print_struct(NullLine& line, const VkBuffer& info);
 void print_struct(NullLine& line, const VkWriteDescriptorSet& info);
 void print_struct(NullLine& line, const VkDebugUtilsLabelEXT& info);
 void print_struct(NullLine& line, const uint32_t& info);
@@ -105,7 +106,7 @@ void print_argument(NullLine& line, T value) {
   } else if constexpr (std::is_floating_point_v<T>) {
     line.text(" "), line.real(value);
   } else if constexpr (std::is_integral_v<T>) {
-    line.text(" "), line.number(static_cast<uint64_t>(value));
+    line.text(" "), std::is_signed_v<T> ? line.signed_number(static_cast<int64_t>(value)) : line.number(static_cast<uint64_t>(value));
   } else if constexpr (kHandleName<T> != nullptr) {
     line.text(" "), line.handle(value);
   } else if constexpr (std::is_pointer_v<T> && std::is_const_v<std::remove_pointer_t<T>>) {

@@ -296,6 +296,7 @@ Status create_device(Device::State& state, const DeviceOptions& options) {
     return std::any_of(extensions->begin(), extensions->end(), [&](const char* other) { return std::string_view(other) == name; });
   };
   EnabledFeatures found;
+  found.multiview = wanted.v11.multiview == VK_TRUE && draws_every_view(state);
   found.depth_bounds = wanted.core.features.depthBounds == VK_TRUE;
   found.conservative_rasterization = enabled(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
   found.sample_locations = enabled(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);

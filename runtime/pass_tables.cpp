@@ -48,11 +48,23 @@ void fill_info(const Context& context, const Sized& sized, const Pass& pass, con
   if (pass.rendering != kNone) fill_rendering_info(context, sized, context.plan.renderings[pass.rendering], info);
 }
 
+VkDeviceSize offset(const Context& context, const Sized& sized, Index expr) { return expr == kNone ? 0 : amount(context, sized, expr); }
+
+void fill_draw(const Context& context, const Sized& sized, const Work& work, DrawTable& draw) {
+  draw.first = static_cast<uint32_t>(offset(context, sized, work.first));
+  draw.vertex_offset = work.vertex_offset == kNone ? 0 : static_cast<int32_t>(std::clamp<int64_t>(evaluate(context, sized, work.vertex_offset), INT32_MIN, INT32_MAX));
+  draw.indices_offset = offset(context, sized, work.indices_offset);
+  draw.vertex_offsets.clear();
+  for (const VertexBuffer& buffer : context.plan.vertex_buffers.subspan(work.first_vertex_buffer, work.vertex_buffer_count))
+    draw.vertex_offsets.push_back(offset(context, sized, buffer.offset));
+}
+
 void fill_work(const Context& context, const Sized& sized, const Work& work, PassTable& table) {
   table.x = amount(context, sized, work.x);
   table.y = amount(context, sized, work.y);
   table.z = amount(context, sized, work.z);
-  if (work.arguments_offset != kNone) table.arguments_offset = amount(context, sized, work.arguments_offset);
+  table.arguments_offset = offset(context, sized, work.arguments_offset);
+  fill_draw(context, sized, work, table.draw);
 }
 
 Status check_dispatch(const Context& context, const Pass& pass, const PassTable& table) {

@@ -133,6 +133,11 @@ void fill_vertex_input(const Plan& plan, const Pipeline& pipeline, GraphicsState
   state.tessellation.patchControlPoints = 3;
 }
 
+VkStencilOpState stencil_state(const StencilFace& face) {
+  return {static_cast<VkStencilOp>(face.fail), static_cast<VkStencilOp>(face.pass), static_cast<VkStencilOp>(face.depth_fail),
+          static_cast<VkCompareOp>(face.compare), face.read_mask, face.write_mask, face.reference};
+}
+
 void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
   const RasterState& in = pipeline.raster;
   state.viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
@@ -151,6 +156,9 @@ void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsS
   state.depth.depthTestEnable = in.depth_test ? VK_TRUE : VK_FALSE;
   state.depth.depthWriteEnable = in.depth_write ? VK_TRUE : VK_FALSE;
   state.depth.depthCompareOp = static_cast<VkCompareOp>(in.depth_compare);
+  state.depth.stencilTestEnable = in.stencil_test ? VK_TRUE : VK_FALSE;
+  state.depth.front = stencil_state(in.stencil_front);
+  state.depth.back = stencil_state(in.stencil_back);
 }
 
 void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
@@ -273,8 +281,9 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   const Rendering& rendering = context.plan.renderings[pass.rendering];
   out.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   for (const Attachment& attachment : context.plan.attachments.subspan(rendering.first_color, rendering.color_count))
-    out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
-                                                                 : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
+    out.color_formats.push_back(attachment.ref.resource == kNone                      ? VK_FORMAT_UNDEFINED
+                                : attachment.view_format != Format::undefined ? static_cast<VkFormat>(attachment.view_format)
+                                                                              : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
   const Index index = static_cast<Index>(&pass - context.plan.passes.data());
   Result<UniqueRenderPass> render_pass = create_render_pass(context, index, out.part);

@@ -195,6 +195,8 @@ enum class StoreOp : uint8_t { store = 0, dont_care = 1, none = 2 };
 struct Attachment {
   Ref ref = {};
   Range range = {};             // one mip
+  uint32_t slice = 0, slices = 0;  // of a 3D image; 0 slices: no 3D image
+  Format view_format = Format::undefined;  // undefined: the image's own
   Layout layout = Layout::undefined;
   LoadOp load = LoadOp::load;
   StoreOp store = StoreOp::store;
@@ -230,7 +232,14 @@ struct ColorBlend {
   BlendOp op_alpha = BlendOp::add;
 };
 struct VertexAttribute { uint32_t location = 0, binding = 0, offset = 0; Format format = Format::undefined; };
+struct VertexBuffer { Ref ref = {}; Index offset = kNone; };  // Expr, bytes; kNone: 0
 struct VertexBinding { uint32_t stride = 0; bool per_instance = false; };
+enum class StencilOp : uint8_t { keep, zero, replace, increment, decrement, invert, increment_wrap, decrement_wrap };  // VkStencilOp
+struct StencilFace {
+  StencilOp fail = StencilOp::keep, pass = StencilOp::keep, depth_fail = StencilOp::keep;
+  Compare compare = Compare::always;
+  uint32_t read_mask = 0, write_mask = 0, reference = 0;
+};
 struct RasterState {
   uint8_t cull = 0;        // VkCullModeFlags
   bool front_clockwise = false;
@@ -239,6 +248,8 @@ struct RasterState {
   float depth_bias_constant = 0, depth_bias_slope = 0;
   uint8_t topology = 3;    // VkPrimitiveTopology
   bool alpha_to_coverage = false;
+  bool stencil_test = false;
+  StencilFace stencil_front = {}, stencil_back = {};
 };
 // A pipeline the runtime builds. Attachment formats and samples come from the pass's Rendering.
 struct Pipeline {
@@ -287,15 +298,21 @@ struct Params {  // a block in the per-frame ring, dynamic offset
 enum class PassKind : uint8_t { raster, compute, transfer, host };
 enum class WorkKind : uint8_t {  // what the executor records for the pass, after rendering, pipeline and set are bound
   none, host, draw, draw_indirect, draw_indexed_indirect, draw_indirect_count, draw_indexed_indirect_count, dispatch, dispatch_indirect, transfers,
+  draw_indexed,
 };
 struct Work {
   WorkKind kind = WorkKind::none;
-  Index x = kNone, y = kNone, z = kNone;  // Expr: dispatch groups | vertices, instances
+  Index x = kNone, y = kNone, z = kNone;  // Expr: dispatch groups | vertices or indices, instances
   Ref arguments = {};
   Index arguments_offset = kNone;         // Expr, bytes
   Ref counts = {};
   uint32_t max_draws = 1, stride = 16;
   Index first_transfer = 0, transfer_count = 0;
+  Index first = kNone, vertex_offset = kNone;  // Expr, direct draws: the first vertex or index; added to indices; kNone: 0
+  Index first_vertex_buffer = 0, vertex_buffer_count = 0;  // in Plan::vertex_buffers, bindings from 0 on
+  Ref indices = {};                       // resource kNone: not bound
+  Index indices_offset = kNone;           // Expr, bytes; kNone: 0
+  uint32_t index_bytes = 4;               // 2 or 4
 };
 enum class TransferKind : uint8_t { copy_image, copy_buffer, copy_buffer_to_image, copy_image_to_buffer, blit, clear_color, clear_depth_stencil, fill, update, resolve };
 struct Transfer {
@@ -369,7 +386,8 @@ enum class Capability : uint8_t {
   depth_bounds,
   conservative_rasterization,
   barycentrics,
-  sample_locations
+  sample_locations,
+  multiview
 };
 struct Feature {  // that shaders are chosen by, or passes run by
   std::string_view name = {};
@@ -414,6 +432,7 @@ struct Plan {
   std::span<const Pipeline> pipelines = {};
   std::span<const Index> pipeline_shaders = {};
   std::span<const ColorBlend> blends = {};
+  std::span<const VertexBuffer> vertex_buffers = {};
   std::span<const VertexBinding> vertex_bindings = {};
   std::span<const VertexAttribute> vertex_attributes = {};
   std::span<const Binding> bindings = {};

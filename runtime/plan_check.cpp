@@ -1,6 +1,7 @@
 #include "runtime/plan_check.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -129,6 +130,9 @@ void check_attachment(const Plan& plan, Index i, Checker& c) {
   const Attachment& attachment = plan.attachments[i];
   if (attachment.ref.resource != kNone) c.ref(attachment.ref, ResourceKind::image, "attachment", i, "image");
   if (attachment.resolve.resource != kNone) c.ref(attachment.resolve, ResourceKind::image, "attachment", i, "resolve");
+  if (!c.ok() || attachment.ref.resource == kNone) return;
+  const bool volume = plan.resources[attachment.ref.resource].dimension == Dimension::d3;
+  c.that((attachment.slices != 0) == volume && attachment.slices <= 65536 && attachment.slice <= 65536, "attachment", i, "slices");
 }
 
 void check_renderings(const Plan& plan, Checker& c) {
@@ -142,6 +146,7 @@ void check_renderings(const Plan& plan, Checker& c) {
     }
     c.expr(rendering.width, "rendering", i, "width");
     c.expr(rendering.height, "rendering", i, "height");
+    c.that(rendering.view_mask == 0 || std::bit_width(rendering.view_mask) <= rendering.layers, "rendering", i, "more views than layers");
     c.that(rendering.layers >= 1 && rendering.samples >= 1, "rendering", i, "layers or samples");
   }
   for (Index i = 0; i < plan.attachments.size(); ++i) check_attachment(plan, i, c);
@@ -204,9 +209,17 @@ bool indirect_work(WorkKind kind) {
          kind == WorkKind::draw_indexed_indirect_count || kind == WorkKind::dispatch_indirect;
 }
 
+void check_draw_buffers(const Plan& plan, const Work& work, size_t i, Checker& c) {
+  for (const Index expr : {work.first, work.vertex_offset, work.indices_offset}) c.expr(expr, "pass", i, "draw");
+  c.range(work.first_vertex_buffer, work.vertex_buffer_count, plan.vertex_buffers.size(), "pass", i, "vertex buffers");
+  if (work.indices.resource != kNone) c.ref(work.indices, ResourceKind::buffer, "pass", i, "indices");
+  c.that(work.index_bytes == 2 || work.index_bytes == 4, "pass", i, "bytes of an index");
+  c.that(work.kind != WorkKind::draw_indexed || work.indices.resource != kNone, "pass", i, "an indexed draw without indices");
+}
+
 void check_work(const Plan& plan, const Pass& pass, size_t i, Checker& c) {
   const Work& work = pass.work;
-  c.that(work.kind <= WorkKind::transfers, "pass", i, "work");
+  c.that(work.kind <= WorkKind::draw_indexed, "pass", i, "work");
   for (const Index expr : {work.x, work.y, work.z, work.arguments_offset}) c.expr(expr, "pass", i, "work size");
   if (indirect_work(work.kind)) c.ref(work.arguments, ResourceKind::buffer, "pass", i, "indirect arguments");
   if (work.kind == WorkKind::draw_indirect_count || work.kind == WorkKind::draw_indexed_indirect_count)
@@ -215,7 +228,9 @@ void check_work(const Plan& plan, const Pass& pass, size_t i, Checker& c) {
   if (work.kind == WorkKind::host) c.that(pass.host_slot < 65536, "pass", i, "host slot");
   c.that(work.max_draws <= 1u << 22, "pass", i, "most draws");
   c.that(pass.kind <= PassKind::host, "pass", i, "kind");
-  const bool draws = indirect_work(work.kind) ? work.kind != WorkKind::dispatch_indirect : work.kind == WorkKind::draw;
+  check_draw_buffers(plan, work, i, c);
+  const bool direct = work.kind == WorkKind::draw || work.kind == WorkKind::draw_indexed;
+  const bool draws = indirect_work(work.kind) ? work.kind != WorkKind::dispatch_indirect : direct;
   const bool dispatches = work.kind == WorkKind::dispatch || work.kind == WorkKind::dispatch_indirect;
   c.that(!draws || pass.kind == PassKind::raster, "pass", i, "draws outside a raster pass");
   c.that(!dispatches || pass.kind == PassKind::compute, "pass", i, "a dispatch outside a compute pass");
@@ -297,6 +312,10 @@ void check_pass(const Plan& plan, size_t i, Checker& c) {
 
 void check_small_tables(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.accesses.size(); ++i) c.any_ref(plan.accesses[i].ref, "access", i);
+  for (size_t i = 0; i < plan.vertex_buffers.size(); ++i) {
+    c.ref(plan.vertex_buffers[i].ref, ResourceKind::buffer, "vertex buffer", i, "buffer");
+    c.expr(plan.vertex_buffers[i].offset, "vertex buffer", i, "offset");
+  }
   for (size_t i = 0; i < plan.bindings.size(); ++i) check_binding(plan, i, c);
   for (size_t i = 0; i < plan.transfers.size(); ++i) check_transfer(plan, i, c);
   for (size_t i = 0; i < plan.pass_params.size(); ++i) c.index(plan.pass_params[i], plan.params.size(), "pass parameter", i, "block");

@@ -69,20 +69,23 @@ RG_PLAN_ROW(Acquire, resource, group, image_barrier, image_barriers, stages, acc
 RG_PLAN_ROW(Release, resource, stages, accesses, queue, point);
 RG_PLAN_ROW(Boundary, ref, range, stages, accesses, layout, queue, discard, bytes);
 RG_PLAN_ROW(Access, ref, range, bytes, stages, accesses, layout, writes);
-RG_PLAN_ROW(Attachment, ref, range, layout, load, store, clear, resolve, resolve_range, resolve_layout, resolve_mode);
+RG_PLAN_ROW(Attachment, ref, range, slice, slices, view_format, layout, load, store, clear, resolve, resolve_range, resolve_layout, resolve_mode);
 RG_PLAN_ROW(Rendering, first_color, color_count, depth, stencil, width, height, layers, view_mask, samples);
 RG_PLAN_ROW(ShaderModule, name, stage, words);
 RG_PLAN_ROW(ColorBlend, enabled, src, dst, op, src_alpha, dst_alpha, op_alpha);
 RG_PLAN_ROW(VertexAttribute, location, binding, offset, format);
+RG_PLAN_ROW(VertexBuffer, ref, offset);
 RG_PLAN_ROW(VertexBinding, stride, per_instance);
+RG_PLAN_ROW(StencilFace, fail, pass, depth_fail, compare, read_mask, write_mask, reference);
 RG_PLAN_ROW(RasterState, cull, front_clockwise, depth_test, depth_write, depth_compare, depth_bias_constant, depth_bias_slope, topology,
-            alpha_to_coverage);
+            alpha_to_coverage, stencil_test, stencil_front, stencil_back);
 RG_PLAN_ROW(Pipeline, name, pass, first_shader, shader_count, raster, first_blend, blend_count, first_vertex_binding, vertex_binding_count,
             first_vertex_attribute, vertex_attribute_count);
 RG_PLAN_ROW(Binding, binding, type, stages, ref, range, bytes, view, arrayed, view_format, layout, sampler, params);
 RG_PLAN_ROW(Sampler, name, linear, mip_linear, address, compare_enabled, compare, max_anisotropy);
 RG_PLAN_ROW(Params, name, bytes, pass, layout);
-RG_PLAN_ROW(Work, kind, x, y, z, arguments, arguments_offset, counts, max_draws, stride, first_transfer, transfer_count);
+RG_PLAN_ROW(Work, kind, x, y, z, arguments, arguments_offset, counts, max_draws, stride, first_transfer, transfer_count, first, vertex_offset,
+            first_vertex_buffer, vertex_buffer_count, indices, indices_offset, index_bytes);
 RG_PLAN_ROW(Transfer, kind, src, dst, src_range, dst_range, src_bytes, dst_bytes, linear, value, update_slot);
 RG_PLAN_ROW(MipLimit, image, mip);
 RG_PLAN_ROW(EngineSet, name, role);
@@ -99,7 +102,7 @@ RG_PLAN_ROW(FeatureCondition, condition, feature, values);
 RG_PLAN_ROW(Culled, pass, reason);
 RG_PLAN_ROW(Plan, version, name, variant, variant_count, variant_name, exprs, extents, resources, queues, batches, steps, waits, signals, groups,
             memory_barriers, image_barriers, buffer_barriers, entry, exit, acquires, releases, alias_clocks, passes, accesses, renderings, attachments,
-            shaders, pipelines, pipeline_shaders, blends, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
+            shaders, pipelines, pipeline_shaders, blends, vertex_buffers, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
             pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions, feature_conditions, needs, culled, estimated_heap_bytes);
 #undef RG_PLAN_ROW
 

@@ -1,5 +1,7 @@
 #include "runtime/record.h"
 
+#include <algorithm>
+
 #include "runtime/barriers.h"
 #include "runtime/inputs.h"
 #include "runtime/queues.h"
@@ -56,6 +58,17 @@ void draw_indirect_count(const FrameRecording& r, Draw draw, const Work& work, c
   draw(r.commands, arguments.buffer, arguments.offset, counts.buffer, counts.offset, work.max_draws, work.stride);
 }
 
+void bind_buffers(const FrameRecording& r, const Work& work, const DrawTable& draw) {
+  for (Index i = 0; i < work.vertex_buffer_count; ++i) {
+    const VertexBuffer& row = r.state.context.plan.vertex_buffers[work.first_vertex_buffer + i];
+    const BufferSpan vertices = work_buffer(r, row.ref, draw.vertex_offsets[i]);
+    r.vk.CmdBindVertexBuffers(r.commands, i, 1, &vertices.buffer, &vertices.offset);
+  }
+  if (work.indices.resource == kNone) return;
+  const BufferSpan indices = work_buffer(r, work.indices, draw.indices_offset);
+  r.vk.CmdBindIndexBuffer(r.commands, indices.buffer, indices.offset, work.index_bytes == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
+}
+
 void dispatch(const FrameRecording& r, const PassTable& table) {
   if (table.x != 0 && table.y != 0 && table.z != 0) r.vk.CmdDispatch(r.commands, table.x, table.y, table.z);
 }
@@ -72,12 +85,15 @@ void call_host(const FrameRecording& r, const PassRow& row, const PassTable& tab
 
 void record_work(const FrameRecording& r, const Pass& pass, const PassTable& table) {
   const DeviceFunctions& vk = r.vk;
+  bind_buffers(r, pass.work, table.draw);
   switch (pass.work.kind) {
     case WorkKind::none:
     case WorkKind::host:
       return;
     case WorkKind::draw:
-      return vk.CmdDraw(r.commands, table.x, table.y, 0, 0);
+      return vk.CmdDraw(r.commands, table.x, table.y, table.draw.first, 0);
+    case WorkKind::draw_indexed:
+      return vk.CmdDrawIndexed(r.commands, table.x, table.y, table.draw.first, table.draw.vertex_offset, 0);
     case WorkKind::draw_indirect:
       return draw_indirect(r, vk.CmdDrawIndirect, pass.work, table);
     case WorkKind::draw_indexed_indirect:

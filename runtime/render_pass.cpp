@@ -34,10 +34,10 @@ VkAttachmentReference2 reference(uint32_t attachment, Layout layout, VkImageAspe
   return out;
 }
 
-VkAttachmentDescription2 description(const Context& context, Ref ref, Layout layout) {
+VkAttachmentDescription2 description(const Context& context, Ref ref, Layout layout, Format view_format = Format::undefined) {
   VkAttachmentDescription2 out{};
   out.sType = VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2;
-  out.format = static_cast<VkFormat>(context.plan.resources[ref.resource].format);
+  out.format = static_cast<VkFormat>(view_format != Format::undefined ? view_format : context.plan.resources[ref.resource].format);
   out.samples = static_cast<VkSampleCountFlagBits>(context.plan.resources[ref.resource].samples);
   out.loadOp = out.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   out.storeOp = out.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -58,7 +58,7 @@ void add_color(const Context& context, const Attachment& attachment, RenderPassS
     shape.colors.push_back(reference(VK_ATTACHMENT_UNUSED, Layout::undefined, 0));
     return;
   }
-  VkAttachmentDescription2 color = description(context, attachment.ref, attachment.layout);
+  VkAttachmentDescription2 color = description(context, attachment.ref, attachment.layout, attachment.view_format);
   color.loadOp = load_op(context.device, attachment.load);
   color.storeOp = store_op(attachment.store);
   shape.colors.push_back(reference(static_cast<uint32_t>(shape.descriptions.size()), attachment.layout, VK_IMAGE_ASPECT_COLOR_BIT));
@@ -163,11 +163,20 @@ VkImageUsageFlags attachment_usage(const Context& context, Ref ref) {
   return color ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
 }
 
-Result<ViewRef> attachment_view(const Context& context, Sized& sized, const Rendering& rendering, Ref ref, Range range) {
-  if (ref.resource == kNone) return ViewRef{};
-  range.mips = 1;
-  const bool arrayed = rendering.layers > 1 || rendering.view_mask != 0;
-  return create_views(context, sized, {ref, range, Dimension::d2, arrayed, Format::undefined, attachment_usage(context, ref), true});
+Result<ViewRef> attachment_view(const Context& context, Sized& sized, const Rendering& rendering, ViewRequest request) {
+  if (request.ref.resource == kNone) return ViewRef{};
+  request.range.mips = 1;
+  request.arrayed = rendering.layers > 1 || rendering.view_mask != 0;
+  request.usage = attachment_usage(context, request.ref);
+  request.all_aspects = true;
+  return create_views(context, sized, request);
+}
+
+ViewRequest target_of(const Attachment& attachment) {
+  ViewRequest request{attachment.ref, attachment.range};
+  request.format = attachment.view_format;
+  request.slice = attachment.slice, request.slices = attachment.slices;
+  return request;
 }
 
 VkRenderingAttachmentInfo attachment_info(const Context& context, const Attachment& attachment) {
@@ -193,9 +202,9 @@ struct TableTarget {
 Status add_attachment(const Context& context, Sized& sized, const TableTarget& target, Index index) {
   const Rendering& rendering = target.rendering;
   const Attachment attachment = attachment_in(context.plan.attachments[index], target.part);
-  Result<ViewRef> view = attachment_view(context, sized, rendering, attachment.ref, attachment.range);
+  Result<ViewRef> view = attachment_view(context, sized, rendering, target_of(attachment));
   if (!view) return view.error();
-  Result<ViewRef> resolve = attachment_view(context, sized, rendering, attachment.resolve, attachment.resolve_range);
+  Result<ViewRef> resolve = attachment_view(context, sized, rendering, {attachment.resolve, attachment.resolve_range});
   if (!resolve) return resolve.error();
   target.table.views.push_back(*view);
   target.table.resolve_views.push_back(*resolve);

@@ -1,6 +1,7 @@
 #include "runtime/slots.h"
 
 #include <algorithm>
+#include <bit>
 #include <system_error>
 
 #include "runtime/errors.h"
@@ -144,11 +145,18 @@ Result<UniqueQueryPool> create_queries(const Context& context, VkQueryType type,
   return UniqueQueryPool(context.vk(), context.device.device, pool);
 }
 
+// Queries behind the last: lavapipe of Mesa 25 writes as many timestamps as the rendering before had views, whether they exist or not.
+uint32_t spare_queries(const Plan& plan) {
+  int views = 0;
+  for (const Rendering& rendering : plan.renderings) views = std::max(views, std::popcount(rendering.view_mask));
+  return static_cast<uint32_t>(views);
+}
+
 Status create_slot_queries(const Context& context, FrameSlot& slot) {
   const auto passes = static_cast<uint32_t>(context.plan.passes.size());
   if (passes == 0 || context.submit_per_pass) return Done{};
   if (context.timestamps && context.device.queues[0].timestamp_bits != 0) {
-    Result<UniqueQueryPool> pool = create_queries(context, VK_QUERY_TYPE_TIMESTAMP, 2 * passes);
+    Result<UniqueQueryPool> pool = create_queries(context, VK_QUERY_TYPE_TIMESTAMP, 2 * passes + spare_queries(context.plan));
     if (!pool) return pool.error();
     slot.queries = std::move(*pool);
   }

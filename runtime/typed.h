@@ -8,6 +8,7 @@
 #include "runtime/graph.h"
 #include "runtime/math_types.h"
 #include "runtime/typed_frame.h"
+#include "runtime/vertex_types.h"
 
 namespace rg {
 

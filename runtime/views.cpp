@@ -28,7 +28,7 @@ uint32_t layer_count(const ViewRequest& request, const VkImageSubresourceRange& 
   return request.dimension == Dimension::cube ? std::min(range.layerCount, 6u) : 1u;
 }
 
-VkImageViewCreateInfo view_info(const Context& context, const Sized& sized, const ViewRequest& request, const VkImageSubresourceRange& range) {
+VkImageViewCreateInfo view_info(const Context& context, const ViewRequest& request, const VkImageSubresourceRange& range) {
   const Resource& resource = context.plan.resources[request.ref.resource];
   VkImageViewCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
@@ -37,8 +37,7 @@ VkImageViewCreateInfo view_info(const Context& context, const Sized& sized, cons
   info.subresourceRange = range;
   info.subresourceRange.layerCount = layer_count(request, range);
   if (request.all_aspects) info.subresourceRange.aspectMask = resource.aspects;
-  const bool slices = resource.dimension == Dimension::d3 && request.dimension != Dimension::d3;  // slices of a volume as attachments
-  if (slices) info.subresourceRange.layerCount = request.arrayed ? sized.resources[request.ref.resource].extent.depth : 1;
+  if (request.slices != 0) info.subresourceRange.baseArrayLayer = request.slice, info.subresourceRange.layerCount = request.slices;
   return info;
 }
 
@@ -101,7 +100,7 @@ Status update_view(const Context& context, ImportedView& view, const ImportedIma
 Result<ViewRef> create_views(const Context& context, Sized& sized, const ViewRequest& request) {
   const VkImageSubresourceRange range = image_range(context, sized, request.ref.resource, request.range);
   if (range.levelCount == 0) return ViewRef{request.ref, 0, kNone, false};
-  const VkImageViewCreateInfo info = view_info(context, sized, request, range);
+  const VkImageViewCreateInfo info = view_info(context, request, range);
   const SizedResource& resource = sized.resources[request.ref.resource];
   if (resource.count == 0) return add_imported(context, sized, request, info);
   const ViewRef ref{request.ref, static_cast<uint32_t>(sized.views.size()), kNone, true};

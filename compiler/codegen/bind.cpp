@@ -8,6 +8,7 @@
 #include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/check_macro.h"
+#include "dsl/format_table.h"
 #include "dsl/layout.h"
 
 namespace rg::compiler {
@@ -60,9 +61,14 @@ uint8_t convert(dsl::Topology topology) {
   return 3;
 }
 
-bool may_write_depth(const dsl::Pass& pass) {
+bool may_write(const dsl::Pass& pass, dsl::Role role) {
   return std::any_of(pass.accesses.begin(), pass.accesses.end(),
-                     [](const dsl::Access& access) { return access.role == dsl::Role::depth && access.mode != dsl::Mode::read; });
+                     [&](const dsl::Access& access) { return access.role == role && access.mode != dsl::Mode::read; });
+}
+
+StencilFace convert(const dsl::StencilFace& face, bool writes) {
+  const auto op = [](dsl::StencilOp each) { return static_cast<StencilOp>(each); };  // in one order
+  return {op(face.fail), op(face.pass), op(face.depth_fail), static_cast<Compare>(face.compare), face.read_mask, writes ? face.write_mask : 0u, face.reference};
 }
 
 RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
@@ -72,12 +78,16 @@ RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
   raster.cull = is_fullscreen(pass) ? 0 : static_cast<uint8_t>(state.cull);
   raster.front_clockwise = state.front_clockwise;
   raster.depth_test = state.depth_test;
-  raster.depth_write = state.depth_write && state.depth_test && may_write_depth(pass);
+  raster.depth_write = state.depth_write && state.depth_test && may_write(pass, dsl::Role::depth);
   raster.depth_compare = static_cast<Compare>(state.depth_compare);
   raster.depth_bias_constant = state.depth_bias_constant;
   raster.depth_bias_slope = state.depth_bias_slope;
   raster.topology = is_fullscreen(pass) ? convert(dsl::Topology::triangles) : convert(state.topology);
   raster.alpha_to_coverage = state.alpha_to_coverage;
+  raster.stencil_test = state.stencil_test;
+  if (!state.stencil_test) return raster;
+  raster.stencil_front = convert(state.stencil_front, may_write(pass, dsl::Role::stencil));
+  raster.stencil_back = convert(state.stencil_back, may_write(pass, dsl::Role::stencil));
   return raster;
 }
 
@@ -96,6 +106,7 @@ Sampler convert(const dsl::Sampler& sampler) {
 // ---- vertex input
 
 Format vertex_format(const dsl::Type& type) {
+  if (type.packed != dsl::Format::none) return format_row(type.packed).vulkan;
   constexpr uint32_t kUint[] = {98, 101, 104, 107}, kInt[] = {99, 102, 105, 108}, kFloat[] = {100, 103, 106, 109};
   const size_t last = type.rows - 1;
   if (type.scalar == dsl::Scalar::f32) return static_cast<Format>(kFloat[last]);
@@ -104,10 +115,16 @@ Format vertex_format(const dsl::Type& type) {
 
 uint32_t column_bytes(const dsl::Type& type) { return type.columns == 1 ? 4u * type.rows : type.rows == 2 ? 8u : 16u; }
 
+// From one column, or element of an array, to the next.
+uint32_t attribute_stride(const dsl::Type& type, bool scalar) {
+  if (type.packed != dsl::Format::none) return dsl::info(type.packed).block_bytes;
+  if (scalar) return 4u * type.rows;
+  return type.count > 0 && type.columns == 1 && type.rows == 3 ? 16 : column_bytes(type);
+}
+
 // One location a column of each array element, as GLSL counts them.
 void add_attributes(PlanData& plan, const dsl::Field& field, bool scalar, uint32_t binding, uint32_t& location) {
-  const uint32_t columns = field.type.columns * std::max(field.type.count, 1u);
-  const uint32_t stride = scalar ? 4u * field.type.rows : field.type.count > 0 && field.type.columns == 1 && field.type.rows == 3 ? 16 : column_bytes(field.type);
+  const uint32_t columns = field.type.columns * std::max(field.type.count, 1u), stride = attribute_stride(field.type, scalar);
   for (uint32_t i = 0; i < columns; ++i)
     plan.vertex_attributes.push_back({location++, binding, field.offset430 + i * stride, vertex_format(field.type)});
 }
@@ -117,8 +134,8 @@ void add_vertex_input(PlanData& plan, Pipeline& pipeline, const dsl::Program& pr
   pipeline.first_vertex_attribute = static_cast<Index>(plan.vertex_attributes.size());
   uint32_t location = 0;
   for (uint32_t binding = 0; binding < pass.draw.vertex.size(); ++binding) {
-    const dsl::Struct& record = program.structs[pass.draw.vertex[binding]];
-    plan.vertex_bindings.push_back({record.size430, false});
+    const dsl::Struct& record = program.structs[pass.draw.vertex[binding].type];
+    plan.vertex_bindings.push_back({record.size430, pass.draw.vertex[binding].per_instance});
     for (const dsl::Field& field : record.fields) add_attributes(plan, field, dsl::is_scalar(record), binding, location);
   }
   pipeline.vertex_binding_count = static_cast<uint32_t>(plan.vertex_bindings.size()) - pipeline.first_vertex_binding;

@@ -11,6 +11,18 @@ std::string compare_text(Compare compare) {
                    {"never", "less", "equal", "less_equal", "greater", "not_equal", "greater_equal", "always"});
 }
 
+Row stencil_row(const StencilFace& face) {
+  Row row;
+  const auto op = [&](const char* member, StencilOp each) {
+    if (each != StencilOp::keep)
+      row.field(member, enum_text("StencilOp", static_cast<size_t>(each),
+                                  {"keep", "zero", "replace", "increment", "decrement", "invert", "increment_wrap", "decrement_wrap"}));
+  };
+  op("fail", face.fail), op("pass", face.pass), op("depth_fail", face.depth_fail);
+  if (face.compare != Compare::always) row.field("compare", compare_text(face.compare));
+  return row.number("read_mask", face.read_mask).number("write_mask", face.write_mask).number("reference", face.reference);
+}
+
 Row raster_row(const RasterState& state) {
   Row row;
   row.number("cull", state.cull)
@@ -20,7 +32,9 @@ Row raster_row(const RasterState& state) {
   if (state.depth_compare != Compare::greater_equal) row.field("depth_compare", compare_text(state.depth_compare));
   if (state.depth_bias_constant != 0) row.field("depth_bias_constant", cpp_float(state.depth_bias_constant));
   if (state.depth_bias_slope != 0) row.field("depth_bias_slope", cpp_float(state.depth_bias_slope));
-  return row.number("topology", state.topology, 3).flag("alpha_to_coverage", state.alpha_to_coverage);
+  row.number("topology", state.topology, 3).flag("alpha_to_coverage", state.alpha_to_coverage);
+  if (!state.stencil_test) return row;
+  return row.flag("stencil_test", true).nested("stencil_front", stencil_row(state.stencil_front)).nested("stencil_back", stencil_row(state.stencil_back));
 }
 
 Row blend_row(const ColorBlend& blend) {
@@ -72,8 +86,9 @@ std::string descriptor_text(DescriptorType type) {
 void PlanEmitter::rendering() {
   table("Attachment", "kAttachments", plan_.attachments, [&](const Attachment& a, size_t) {
     Row row;
-    row.nested("ref", ref(a.ref)).nested("range", range(a.range)).field("layout", layout_text(a.layout));
-    row.field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
+    row.nested("ref", ref(a.ref)).nested("range", range(a.range)).number("slice", a.slice).number("slices", a.slices);
+    if (a.view_format != Format::undefined) row.field("view_format", format_text(a.view_format));
+    row.field("layout", layout_text(a.layout)).field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
     row.field("store", enum_text("StoreOp", static_cast<size_t>(a.store), {"store", "dont_care", "none"})).nested("clear", clear_value(a.clear));
     if (a.resolve.resource == kNone) return row;
     row.nested("resolve", ref(a.resolve)).nested("resolve_range", range(a.resolve_range)).field("resolve_layout", layout_text(a.resolve_layout));

@@ -161,18 +161,23 @@ void PlanEmitter::resources() {
 
 namespace {
 
-Row work_row(const Work& work, const Row& arguments, const Row& counts) {
+Row work_row(const Work& work, const Row& arguments, const Row& counts, const Row& indices) {
   Row row;
   enumerator(row, "kind", "WorkKind", static_cast<size_t>(work.kind),
              {"none", "host", "draw", "draw_indirect", "draw_indexed_indirect", "draw_indirect_count", "draw_indexed_indirect_count", "dispatch",
-              "dispatch_indirect", "transfers"});
+              "dispatch_indirect", "transfers", "draw_indexed"});
   index(row, "x", work.x);
   index(row, "y", work.y);
   index(row, "z", work.z);
   row.nested("arguments", arguments);
   index(row, "arguments_offset", work.arguments_offset);
   row.nested("counts", counts).number("max_draws", work.max_draws, 1).number("stride", work.stride, 16);
-  return slice(row, "first_transfer", work.first_transfer, "transfer_count", work.transfer_count);
+  slice(row, "first_transfer", work.first_transfer, "transfer_count", work.transfer_count);
+  index(row, "first", work.first);
+  index(row, "vertex_offset", work.vertex_offset);
+  slice(row, "first_vertex_buffer", work.first_vertex_buffer, "vertex_buffer_count", work.vertex_buffer_count);
+  row.nested("indices", indices);
+  return index(row, "indices_offset", work.indices_offset).number("index_bytes", work.index_bytes, 4);
 }
 
 }  // namespace
@@ -200,10 +205,15 @@ void PlanEmitter::passes() {
     index(row, "engine_set", p.engine_set);
     slice(row, "first_choice", p.first_choice, "choice_count", p.choice_count);
     slice(row, "first_feature", p.first_feature, "feature_count", p.feature_count);
-    row.nested("work", work_row(p.work, ref(p.work.arguments), ref(p.work.counts)));
+    row.nested("work", work_row(p.work, ref(p.work.arguments), ref(p.work.counts), ref(p.work.indices)));
     index(row, "host_slot", p.host_slot);
     slice(row, "first_mip_limit", p.first_mip_limit, "mip_limit_count", p.mip_limit_count);
     return declared(row, text_.passes[i]);
+  });
+  table("VertexBuffer", "kVertexBuffers", plan_.vertex_buffers, [&](const VertexBuffer& b, size_t) {
+    Row row;
+    row.nested("ref", ref(b.ref));
+    return index(row, "offset", b.offset);
   });
   table("MipLimit", "kMipLimits", plan_.mip_limits,
         [&](const MipLimit& m, size_t) { return Row().field("image", resource(m.image)).number("mip", m.mip); });
@@ -282,6 +292,7 @@ void PlanEmitter::plan() {
   RG_TABLE(pipelines, kPipelines);
   RG_TABLE(pipeline_shaders, kPipelineShaders);
   RG_TABLE(blends, kBlends);
+  RG_TABLE(vertex_buffers, kVertexBuffers);
   RG_TABLE(vertex_bindings, kVertexBindings);
   RG_TABLE(vertex_attributes, kVertexAttributes);
   RG_TABLE(bindings, kBindings);

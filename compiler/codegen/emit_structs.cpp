@@ -3,6 +3,7 @@
 #include "compiler/codegen/cpp_writer.h"
 #include "compiler/codegen/plan_values.h"
 #include "dsl/check_macro.h"
+#include "dsl/format_table.h"
 #include "dsl/layout.h"
 
 namespace rg::compiler {
@@ -26,7 +27,7 @@ void mark_graph(const dsl::Program& program, const dsl::Graph& graph, Uses& uses
   for (const dsl::Params& params : graph.params) mark_struct(program, uses, params.type, true);
   for (const dsl::Pass& pass : graph.passes) {
     if (pass.draw.per_draw.valid()) mark_struct(program, uses, pass.draw.per_draw, false);
-    for (const dsl::StructId id : pass.draw.vertex) mark_struct(program, uses, id, false);
+    for (const dsl::VertexInput& input : pass.draw.vertex) mark_struct(program, uses, input.type, false);
     for (const dsl::Access& access : pass.accesses) {
       const dsl::Resource& resource = graph.resources[access.resource];
       if (resource.kind == dsl::ResourceKind::buffer) mark(program, uses, resource.element, access.role == dsl::Role::uniform);
@@ -46,13 +47,14 @@ struct Layout {
 // Bytes of one element in C++, and the distance GLSL puts between elements of an array.
 uint32_t element_bytes(const Layout& layout, const dsl::Type& type) {
   if (type.record.valid()) return layout.size(layout.program.structs[type.record]);
+  if (type.packed != dsl::Format::none) return dsl::info(type.packed).block_bytes;
   if (layout.scalar) return 4u * type.rows * type.columns;
   if (type.columns > 1) return 16u * type.columns;
   return 4u * type.rows;
 }
 uint32_t array_stride(const Layout& layout, const dsl::Type& type) {
   const uint32_t bytes = element_bytes(layout, type);
-  if (type.record.valid() || type.columns > 1 || layout.scalar) return bytes;
+  if (type.record.valid() || type.packed != dsl::Format::none || type.columns > 1 || layout.scalar) return bytes;
   return layout.std140 || type.rows == 3 ? 16 : bytes;
 }
 
@@ -99,7 +101,9 @@ class StructEmitter {
  private:
   void pad_to(uint32_t offset) {
     RG_CHECK(offset >= at_, "a struct's fields overlap");
-    if (offset > at_) out_.line("  uint32_t padding_" + std::to_string(paddings_++) + "[" + std::to_string((offset - at_) / 4) + "] = {};");
+    const bool words = at_ % 4 == 0 && offset % 4 == 0;
+    const std::string count = std::to_string((offset - at_) / (words ? 4 : 1));
+    if (offset > at_) out_.line(std::string(words ? "  uint32_t" : "  uint8_t") + " padding_" + std::to_string(paddings_++) + "[" + count + "] = {};");
     at_ = offset;
   }
 
@@ -112,7 +116,8 @@ class StructEmitter {
     std::string array = type.count > 0 ? "[" + std::to_string(type.count) + "]" : "";
     const bool tight = layout_.scalar && type.columns > 1 && type.rows == 3;  // columns of 12 bytes, which rg::mat3 pads
     if (tight) text = "rg::vec3", array += "[" + std::to_string(type.columns) + "]";
-    const bool is_scalar = array.empty() && !type.record.valid() && type.rows == 1 && type.columns == 1;
+    const bool is_class = type.record.valid() || (type.packed != dsl::Format::none && bytes < 4u * type.rows);
+    const bool is_scalar = array.empty() && !is_class && type.rows == 1 && type.columns == 1;
     out_.line("  " + text + " " + cpp_name(field.name) + array + (is_scalar ? " = 0;" : " = {};"));
     at_ += type.count > 0 ? stride * type.count : bytes;
   }
@@ -151,6 +156,20 @@ void emit_nested(const Layout& layout, const dsl::SourceFiles& files, dsl::Struc
   text += StructEmitter(layout, files).emit(id);
 }
 
+// "rg::Normalized<uint8_t, 4>", of what runtime/vertex_types.h has; none where the plain types are that wide.
+std::string packed_mirror(dsl::Format format) {
+  const dsl::FormatInfo& row = dsl::info(format);
+  const uint32_t count = dsl::components(format);
+  if (format == dsl::Format::none || row.block_bytes == 4 * count) return "";
+  if (format == dsl::Format::rgb10a2) return "rg::Rgb10a2";
+  if (format == dsl::Format::bgra8) return "rg::Bgra8";
+  const std::string components = std::to_string(count);
+  if (row.numeric == dsl::Numeric::floating) return "rg::Half<" + components + ">";
+  const bool is_signed = row.numeric == dsl::Numeric::snorm || row.numeric == dsl::Numeric::sint;
+  const std::string number = std::string(is_signed ? "int" : "uint") + std::to_string(row.block_bytes * 8 / count) + "_t";
+  return (row.is_integer() ? "rg::Integers<" : "rg::Normalized<") + number + ", " + components + ">";
+}
+
 }  // namespace
 
 std::vector<StructUse> find_struct_uses(const dsl::Program& program) {
@@ -168,6 +187,7 @@ std::string mirror_name(const dsl::Program& program, const Uses& uses, dsl::Stru
 
 std::string mirror_type(const dsl::Program& program, const Uses& uses, const dsl::Type& type, bool std140) {
   if (type.record.valid()) return mirror_name(program, uses, type.record, std140);
+  if (const std::string packed = packed_mirror(type.packed); !packed.empty()) return packed;
   if (type.columns > 1) {
     if (type.columns == type.rows) return "rg::mat" + std::to_string(type.rows);
     return "rg::mat" + std::to_string(type.columns) + "x" + std::to_string(type.rows);

@@ -45,7 +45,8 @@ constexpr const char* kWorkKinds[] = {"none",
                                       "draw_indexed_indirect_count",
                                       "dispatch",
                                       "dispatch_indirect",
-                                      "transfers"};
+                                      "transfers",
+                                      "draw_indexed"};
 constexpr const char* kTransferKinds[] = {"copy_image", "copy_buffer", "copy_buffer_to_image", "copy_image_to_buffer",
                                           "blit",       "clear_color", "clear_depth_stencil",  "fill",
                                           "update",     "resolve"};
@@ -148,6 +149,11 @@ struct PlanJson {
     Json json = {{"kind", word(kWorkKinds, row.kind)}};
     if (row.x != kNone) json["count"] = {expression_text(plan, row.x), expression_text(plan, row.y), expression_text(plan, row.z)};
     if (row.arguments.resource != kNone) json["arguments"] = ref(row.arguments);
+    if (row.first != kNone) json["first"] = expression_text(plan, row.first);
+    if (row.vertex_offset != kNone) json["vertex_offset"] = expression_text(plan, row.vertex_offset);
+    if (row.indices.resource != kNone) json["indices"] = ref(row.indices);
+    if (row.vertex_buffer_count)
+      json["vertex_buffers"] = slice(plan.vertex_buffers, row.first_vertex_buffer, row.vertex_buffer_count, [&](const VertexBuffer& b) { return ref(b.ref); });
     if (row.transfer_count)
       json["transfers"] = slice(plan.transfers, row.first_transfer, row.transfer_count, [&](const Transfer& t) { return transfer(t); });
     return json;

@@ -104,16 +104,6 @@ std::string function_name(Format format) { return std::string("rg_to_") + dsl::n
 
 }  // namespace
 
-uint32_t components(Format format) {
-  const std::string name = dsl::name(format);
-  const auto begins = [&](const char* text) { return name.rfind(text, 0) == 0; };
-  if (!dsl::info(format).is_color()) return 1;
-  if (begins("rgba") || begins("bgra") || begins("rgb10a2") || begins("bc1") || begins("bc2") || begins("bc3") || begins("bc7")) return 4;
-  if (begins("r11g11b10") || begins("rgb9e5") || begins("bc6")) return 3;
-  if (begins("rg") || begins("bc5")) return 2;
-  return 1;
-}
-
 std::string texel_type(Format format, uint32_t aspects) {
   const char kind = texel_kind(format, aspects);
   return vector_of(kind == 'f' ? "float" : kind == 'u' ? "uint" : "int", components(format));

@@ -7,9 +7,6 @@
 
 namespace rg::compiler {
 
-// Components of a texel that a shader reads: 3 of r11g11b10f.
-uint32_t components(dsl::Format format);
-
 // "float", "uvec2", "vec4": what holds a texel; of depth and stencil images that of the aspects.
 std::string texel_type(dsl::Format format, uint32_t aspects);
 

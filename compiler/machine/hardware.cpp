@@ -165,9 +165,9 @@ bool is_attachment(Role role) { return role == Role::color || role == Role::dept
 bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   if (access.mode == Mode::read || access.mode == Mode::atomic) return true;
   if (!is_attachment(access.role)) return access.mode == Mode::update;
-  const bool fullscreen = pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color;
+  const bool fullscreen = pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && access.mode == Mode::write;
   const bool covered = (access.covers || fullscreen) && !access.blend.enabled;
-  return !access.clear && !covered;
+  return is_slice(access) || (!access.clear && !covered);
 }
 
 bool commutes(const dsl::Access& access) { return access.mode == Mode::atomic || (access.disjoint && access.mode != Mode::read); }

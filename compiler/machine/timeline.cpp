@@ -125,7 +125,9 @@ struct Unroller {
   // What the plan's load and store operations do beside the draws.
   static bool drops_before(const dsl::Pass& pass, const dsl::Access& access, const Attachment& attachment) {
     const bool clears = access.clear && access.mode != dsl::Mode::read && !access.covers;
-    return (needs_contents(pass, access) && attachment.load != LoadOp::load) || (clears && attachment.load != LoadOp::clear);
+    const bool slice_only = is_slice(access) && (access.clear || access.covers);  // the operation stays within the slices, which it may drop
+    const bool drops = needs_contents(pass, access) && !slice_only && attachment.load != LoadOp::load;
+    return drops || (clears && attachment.load != LoadOp::clear);
   }
   static bool drops_after(const dsl::Access& access, const Attachment& attachment) {
     return access.mode != dsl::Mode::read && attachment.store != StoreOp::store;

@@ -23,6 +23,8 @@ Capability capability_of(uint32_t spirv) {
       return Capability::subgroup_quad;
     case spv::CapabilityFragmentBarycentricKHR:
       return Capability::barycentrics;
+    case spv::CapabilityMultiView:
+      return Capability::multiview;
     default:
       return Capability::none;
   }
@@ -59,7 +61,7 @@ std::vector<Capability> device_capabilities(const Words& words) {
 
 bool check_floor(const PassContext& context, const dsl::Shader& shader, const VariantRow& row, const Words& words, dsl::Diagnostics& diagnostics) {
   for (const Capability capability : device_capabilities(words)) {
-    if (asked_for(context, row, capability)) continue;
+    if (asked_for(context, row, capability) || (capability == Capability::multiview && context.pass.multiview)) continue;
     const std::string name = name_of(capability);
     diagnostics.report(dsl::DiagnosticKind::BeyondProfile, shader.span,
                        {"shader `" + shader.path + "`", name, "vulkan 1.3",

@@ -48,8 +48,14 @@ void add_struct(const dsl::Program& program, dsl::StructId id, std::vector<bool>
   prelude.push_back({"};", record.span});
 }
 
+// Vertices come in field by field: no block holds those that are packed.
+bool is_packed(const dsl::Struct& record) {
+  return std::any_of(record.fields.begin(), record.fields.end(), [](const dsl::Field& field) { return field.type.packed != dsl::Format::none; });
+}
+
 void add_structs(const dsl::Program& program, Prelude& prelude) {
   std::vector<bool> done(program.structs.size(), false);
+  for (size_t i = 0; i < program.structs.size(); ++i) done[i] = is_packed(program.structs.rows[i]);
   for (size_t i = 0; i < program.structs.size(); ++i) add_struct(program, dsl::StructId{i}, done, prelude);
 }
 
@@ -153,6 +159,7 @@ std::string input_text(const dsl::Graph& graph, const dsl::Pass& pass, const Int
   const dsl::Access& access = pass.accesses[binding.access];
   const dsl::Resource& image = graph.resources[access.resource];
   const std::string layer = !view_shape(image, access).arrayed ? "ivec2(gl_FragCoord.xy)"
+                            : pass.multiview                   ? "ivec3(gl_FragCoord.xy, gl_ViewIndex)"
                                                                : "ivec3(gl_FragCoord.xy, gl_Layer)";
   const std::string sample = image.samples > 1 ? "gl_SampleID" : "0";
   return "#define " + access.name + " texelFetch(" + binding.name + ", " + layer + ", " + sample + ")";
@@ -164,7 +171,7 @@ void add_outputs(const dsl::Graph& graph, const dsl::Pass& pass, Prelude& prelud
   uint32_t location = 0;
   for (const dsl::Access& access : pass.accesses) {
     if (access.role != dsl::Role::color) continue;
-    const char kind = texel_kind(graph.resources[access.resource].format, 1);
+    const char kind = texel_kind(dsl::seen_format(graph.resources[access.resource], access), 1);
     const std::string type = (kind == 'f' ? "" : std::string(1, kind)) + "vec4 ";
     prelude.push_back({"layout(location = " + std::to_string(location++) + ") out " + type + access.name + ";", access.span});
   }
@@ -174,8 +181,8 @@ uint32_t locations_of(const dsl::Type& type) { return type.columns * std::max(ty
 
 void add_vertex_inputs(const dsl::Program& program, const dsl::Pass& pass, Prelude& prelude) {
   uint32_t location = 0;
-  for (const dsl::StructId id : pass.draw.vertex) {
-    for (const dsl::Field& field : program.structs[id].fields) {
+  for (const dsl::VertexInput& input : pass.draw.vertex) {
+    for (const dsl::Field& field : program.structs[input.type].fields) {
       prelude.push_back(
           {"layout(location = " + std::to_string(location) + ") in " + glsl_variable(program, field.type, field.name) + ";", field.span});
       location += locations_of(field.type);
@@ -304,6 +311,7 @@ Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const
   for (const char* line : kHeader) prelude.push_back({line, {}});
   const bool scalar = std::any_of(program.structs.begin(), program.structs.end(), dsl::is_scalar);
   if (scalar) prelude.push_back({"#extension GL_EXT_scalar_block_layout : require", {}});
+  if (pass.multiview) prelude.push_back({"#extension GL_EXT_multiview : require", pass.span});
   add_constants(program, prelude);
   add_structs(program, prelude);
   add_features(pass, fixed, prelude);

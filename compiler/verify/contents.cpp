@@ -151,7 +151,8 @@ void report_read(Comparison& c, uint32_t plan_pass, const Use& use, uint32_t cel
   c.report.add({actual == kPoison ? Hazard::poison_read : Hazard::wrong_version, c.model.resource(use.resource).name, "", pass, text});
 }
 
-bool loads(const Use& use, const PassNode& node) { return !use.attachment || !node.first_in_rendering || use.load == LoadOp::load; }
+// Operations on slices leave the others; what they do to their own, the access declares.
+bool loads(const Use& use, const PassNode& node) { return !use.attachment || !node.first_in_rendering || use.load == LoadOp::load || use.own_slices; }
 
 void report_load(Comparison& c, uint32_t plan_pass, const Use& use, const std::string& text) {
   const std::string pass = c.model.pass_name(plan_pass);

@@ -31,6 +31,7 @@ struct Use {
   std::vector<uint32_t> orders;  // by cell: commuting writers share a number; 0 none
   std::vector<Touch> touches;
   bool attachment = false, uses_contents = false, writes = false, commutes = false, clears = false;
+  bool own_slices = false;  // clears or covers slices of a volume: load operations may drop those, and no others
   LoadOp load = LoadOp::load;  // attachments
   StoreOp store = StoreOp::store;
 };

@@ -130,6 +130,7 @@ Use make_use(const PassContext& context, PassNode& node, uint32_t index, const s
   use.writes = writes_contents(access);
   use.commutes = commutes(access);
   use.clears = access.clear.has_value();
+  use.own_slices = is_slice(access) && (access.clear || access.covers);
   if (is_attachment(access.role))
     take_attachment(context, node, access, use);
   else {

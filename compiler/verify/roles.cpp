@@ -190,7 +190,7 @@ bool is_legal_layout(const dsl::Pass& pass, const dsl::Access& access, uint32_t 
 }
 
 bool uses_contents(const dsl::Pass& pass, const dsl::Access& access) {
-  if (access.clear && is_rendered(pass, access.role)) return false;
+  if (access.clear && is_rendered(pass, access.role)) return is_slice(access);
   if (access.mode == Mode::read || access.mode == Mode::update || access.mode == Mode::atomic) {
     return true;
   }

@@ -124,6 +124,38 @@ void check_resolves(const Work& work, const Rendering& rendering) {
   }
 }
 
+// What the access names beside the subresource: slices of a volume, and whether it is seen in another format. (Numbers of formats are no business of the
+// checker.)
+bool same_view(const Work& work, const Attachment& row, const dsl::Access& access) {
+  const dsl::Resource& image = work.model.resource(access.resource.value);
+  const Format own = work.model.input->plan.resources[row.ref.resource].format;
+  const bool is_other = row.view_format != Format::undefined && row.view_format != own;
+  if ((row.view_format != Format::undefined) != (access.view != dsl::Format::none) || is_other != (access.view != dsl::Format::none)) return false;
+  if (image.dimension != dsl::Dimension::d3) return row.slices == 0;
+  const int64_t depth = std::max<int64_t>(dsl::evaluate(work.model.input->program, image.depth, work.extents) >> access.range.mip, 1);
+  return is_slice(access) ? row.slice == access.range.slice && row.slices == access.range.slices : row.slice == 0 && row.slices == depth;
+}
+
+bool is_target(dsl::Role role) { return role == dsl::Role::color || role == dsl::Role::depth || role == dsl::Role::depth_readonly || role == dsl::Role::stencil; }
+
+void check_targets(const Work& work, const Rendering& rendering) {
+  const auto& attachments = work.model.input->plan.attachments;
+  uint32_t layers = kNone, color = 0;
+  for (uint32_t a = 0; a < work.pass.accesses.size(); ++a) {
+    const dsl::Access& access = work.pass.accesses[a];
+    if (!is_target(access.role)) continue;
+    const Shape& shape = work.model.resources[access.resource.value].partition.shape;
+    const Box box = box_of(work.model.input->program, shape, effective_range(access, shape.aspects), work.extents);
+    const Index index = access.role == dsl::Role::color ? rendering.first_color + color++ : access.role == dsl::Role::stencil ? rendering.stencil : rendering.depth;
+    if (index >= attachments.size() || !names_access(work, attachments[index].ref, a)) continue;  // reported with its contents
+    if (!same_view(work, attachments[index], access)) report_work(work, a, "the attachment is seen otherwise than declared");
+    layers = std::min(layers, attachments[index].slices != 0 ? attachments[index].slices : static_cast<uint32_t>(box.layer_end - box.layer_begin));
+  }
+  if (layers == kNone) return;
+  if (rendering.layers != layers) report_work(work, dsl::kAll, "the rendering has another number of layers than declared");
+  if (rendering.view_mask != (work.pass.multiview ? (1u << layers) - 1 : 0u)) report_work(work, dsl::kAll, "the rendering has other views than declared");
+}
+
 void check_clears(const Work& work, const Rendering& rendering) {
   const auto& attachments = work.model.input->plan.attachments;
   const auto check = [&](const Attachment& row, bool serves, uint32_t access, uint32_t aspects) {
@@ -143,6 +175,39 @@ void check_clears(const Work& work, const Rendering& rendering) {
   }
 }
 
+bool same_value(const Work& work, Index planned, dsl::ExprId declared, int64_t otherwise) {
+  const int64_t wanted = declared.valid() ? dsl::evaluate(work.model.input->program, declared, work.extents) : otherwise;
+  if (planned != kNone && planned >= work.model.input->plan.exprs.size()) return false;
+  return (planned == kNone ? otherwise : evaluate(work.model.input->plan.exprs, planned, work.extents)) == wanted;
+}
+
+// VkBuffer and offset of a binding.
+bool same_buffer(const Work& work, Ref ref, Index offset, uint32_t access) {
+  if (!names_access(work, ref, access)) return false;
+  return access >= work.pass.accesses.size() || same_value(work, offset, work.pass.accesses[access].range.offset, 0);
+}
+
+void check_draw(const Work& work) {
+  const dsl::Draw& declared = work.pass.draw;
+  const rg::Work& planned = work.plan.work;
+  if (planned.kind == WorkKind::host || work.pass.kind != dsl::PassKind::raster) return;
+  if (declared.kind == dsl::DrawKind::direct) {
+    if (planned.kind != (declared.indexed ? WorkKind::draw_indexed : WorkKind::draw)) report_work(work, dsl::kAll, "the plan draws in another way than declared");
+    if (!same_value(work, planned.x, declared.vertices, 1) || !same_value(work, planned.y, declared.instances, 1) ||
+        !same_value(work, planned.first, declared.first, 0) || !same_value(work, planned.vertex_offset, declared.offset, 0))
+      report_work(work, dsl::kAll, "the plan draws other vertices than declared");
+  }
+  if (!same_buffer(work, planned.indices, planned.indices_offset, declared.indices))
+    report_work(work, declared.indices, "the plan takes its indices from elsewhere");
+  const auto& buffers = work.model.input->plan.vertex_buffers;
+  const bool inside = uint64_t{planned.first_vertex_buffer} + planned.vertex_buffer_count <= buffers.size();
+  if (!inside || planned.vertex_buffer_count != declared.vertex.size())
+    return report_work(work, dsl::kAll, "the plan binds another number of vertex buffers than declared");
+  for (uint32_t i = 0; i < planned.vertex_buffer_count; ++i)
+    if (!same_buffer(work, buffers[planned.first_vertex_buffer + i].ref, buffers[planned.first_vertex_buffer + i].offset, declared.vertex[i].buffer))
+      report_work(work, declared.vertex[i].buffer, "the plan takes its vertices from elsewhere");
+}
+
 void check_arguments(const Work& work) {
   const bool draws = work.pass.draw.kind == dsl::DrawKind::indirect || work.pass.draw.kind == dsl::DrawKind::indirect_count;
   const bool dispatches = work.pass.dispatch.kind == dsl::DispatchKind::indirect;
@@ -160,12 +225,14 @@ void check_work(const Model& model, const std::vector<int64_t>& extents, Report&
     const Work work{model, extents, report, model.input->plan.passes[node.plan_pass], model.pass(node.plan_pass)};
     if (work.pass.kind == dsl::PassKind::transfer) check_transfers(work);
     check_arguments(work);
+    check_draw(work);
     if (work.plan.rendering == kNone) continue;
     if (node.last_in_rendering)
       check_resolves(work, model.input->plan.renderings[work.plan.rendering]);
     else if (declares_resolve(work.pass))  // it would come after the last pass
       report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
     check_clears(work, model.input->plan.renderings[work.plan.rendering]);
+    check_targets(work, model.input->plan.renderings[work.plan.rendering]);
   }
 }
 

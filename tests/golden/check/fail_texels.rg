@@ -2,7 +2,7 @@
 module texels
 
 sampler smooth { filter linear }
-interface Scene { brought: buffer rgba8[16] ready as storage in compute }  //~ error[RG0391]: buffer `scene.brought` cannot hold texels of `rgba8`: what the engine brings holds plain elements; see it through a copy
+interface Scene { brought: buffer rgba8[16] ready as storage in compute }  //~ note[RG0202]: `scene.brought` is declared here
 
 graph frame(scene: Scene, surface backbuffer: rgba8 64x64 after copy_src)
 {
@@ -23,5 +23,6 @@ graph frame(scene: Scene, surface backbuffer: rgba8 64x64 after copy_src)
     color backbuffer clear 0
   }
   pass look : compute { read lut as sampled(smooth) }  //~ error[RG0342]: role `sampled` takes no sampler
+  pass seen : compute { read scene.brought as storage }  //~ error[RG0391]: buffer `scene.brought` cannot hold texels of `rgba8`: shaders see what the engine brings through a copy
   pass part : compute { read words as sampled }  //~ error[RG0337]: `words` is a buffer, which cannot be used as `sampled`
 }

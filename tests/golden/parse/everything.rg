@@ -6,7 +6,8 @@ extent view = runtime(1920, 1080) max(3840, 2160)
 struct View { m: mat4  list: vec4[4] }
 interface Scene { lights: buffer Light[] ready as storage in compute, fragment after storage  maps: image rgba8 16x16 layers 2 written as sampled }
 sampler s { filter linear  mip nearest  address clamp  compare less  anisotropy 8 }
-state opaque { cull back  front clockwise  depth test less  depth write off  bias 1.0 2.0  topology lines  alpha_to_coverage }
+state opaque { cull back  front clockwise  depth test less  depth write off  bias 1.0 2.0  topology lines  alpha_to_coverage  stencil test equal  stencil reference 3
+  stencil_front depth_fail increment_wrap  stencil_back write_mask 15 }
 feature fog: bool
 feature path: { low, high }
 condition missed
@@ -32,12 +33,13 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
     bind materials
     after q
     keep
+    multiview
     draw indexed indirect c max 10 count c { per_draw Draw { id: u32 }  vertex Vertex }
   }
   pass q[1] : compute { shader "a.comp" group 8 8 1  atomic c as storage clear 0 disjoint  dispatch over view }
   pass t : transfer { copy a -> b[0]  blit a -> b[0] linear  clear a 0  fill c 7  update c  host { read a as copy_src  write b[0] as copy_dst } }
   pass h : host { read c as host }
-  pass f : raster { fullscreen "f.frag"  color backbuffer  draw 3 instances 2  }
+  pass f : raster { fullscreen "f.frag"  color backbuffer  draw indexed 3 instances 2 first 1 offset 4 { vertex Vertex  instance Vertex } }
   for i in 0..mips(a) { pass l[i] : compute { write a.mip(i) as storage } }
   when fog { use blur(a, b[0], 3, view_constants, c) } else { use other = blur(a, b[0], 3, view_constants, c) }
   when not path == high { }

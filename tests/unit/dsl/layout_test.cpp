@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "dsl/format_table.h"
+
 namespace rg::dsl {
 namespace {
 
@@ -54,6 +56,31 @@ Struct record(std::vector<Type> types) {
     result.fields.push_back(std::move(field));
   }
   return result;
+}
+
+TEST(Layout, PackedFieldsAreAlignedToTheirBytesUpToAWord) {
+  Table<StructId, Struct> structs;
+  Struct vertex = record({make(Scalar::f32, 3), packed_type(Format::rgba8), packed_type(Format::r8), packed_type(Format::rg8_snorm),
+                          packed_type(Format::rgba16f), packed_type(Format::r16ui)});
+  vertex.fields[2].type.count = 3;
+  for (const bool scalar : {false, true}) {
+    ASSERT_TRUE(lay_out(structs, vertex, scalar));
+    const uint32_t offsets[] = {0, 12, 16, 20, 24, 32};
+    for (size_t i = 0; i < 6; ++i) EXPECT_EQ(vertex.fields[i].offset430, offsets[i]) << i;
+    EXPECT_EQ(vertex.size430, scalar ? 36u : 48u);
+  }
+  const Type tint = packed_type(Format::rgba8), flags = packed_type(Format::rg16i);
+  EXPECT_EQ(tint.rows, 4);
+  EXPECT_EQ(tint.scalar, Scalar::f32);
+  EXPECT_EQ(flags.rows, 2);
+  EXPECT_EQ(flags.scalar, Scalar::i32);
+}
+
+TEST(Layout, VerticesTakeWhatEveryDeviceReads) {
+  for (const Format format : {Format::rgba8, Format::rgba8_snorm, Format::rg16, Format::rgba16_snorm, Format::rg16f, Format::rgb10a2, Format::bgra8})
+    EXPECT_TRUE(is_vertex_format(format)) << name(format);
+  for (const Format format : {Format::rgba8_srgb, Format::bc1, Format::d16, Format::r11g11b10f, Format::rgb9e5, Format::rgb10a2ui, Format::none})
+    EXPECT_FALSE(is_vertex_format(format)) << name(format);
 }
 
 TEST(Layout, StructsPadAndAgreeOrNot) {

@@ -37,6 +37,13 @@ TEST(PlanCheck, NamesTheRow) {
   EXPECT_EQ(fault([](P& p) { p.renderings[0].color_count = 7; }), "plan `test`: rendering 0: colours");
   EXPECT_EQ(fault([](P& p) { p.renderings[1].depth = 5; }), "plan `test`: rendering 1: depth or stencil");
   EXPECT_EQ(fault([](P& p) { p.attachments[1].ref.resource = 2; }), "plan `test`: attachment 1: image");
+  EXPECT_EQ(fault([](P& p) { p.attachments[1].slices = 1; }), "plan `test`: attachment 1: slices");
+  EXPECT_EQ(fault([](P& p) { p.renderings[1].view_mask = 2; }), "plan `test`: rendering 1: more views than layers");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.vertex_buffer_count = 1; }), "plan `test`: pass 1: vertex buffers");
+  EXPECT_EQ(fault([](P& p) { p.vertex_buffers.push_back({{0, 0}, kNone}); }), "plan `test`: vertex buffer 0: buffer");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.kind = WorkKind::draw_indexed; }), "plan `test`: pass 1: an indexed draw without indices");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.index_bytes = 3; }), "plan `test`: pass 1: bytes of an index");
+  EXPECT_EQ(fault([](P& p) { p.passes[1].work.first = 999; }), "plan `test`: pass 1: draw");
   EXPECT_EQ(fault([](P& p) { p.pipelines[0].shader_count = 3; }), "plan `test`: pipeline 0: shaders");
   EXPECT_EQ(fault([](P& p) { p.pipeline_shaders[1] = 2; }), "plan `test`: pipeline shader 1: shader");
   EXPECT_EQ(fault([](P& p) { p.bindings[0].sampler = 1; }), "plan `test`: binding 0: sampler");

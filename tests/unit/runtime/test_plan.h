@@ -43,6 +43,7 @@ struct TestPlan {
   std::vector<Access> accesses;
   std::vector<Rendering> renderings;
   std::vector<Attachment> attachments;
+  std::vector<VertexBuffer> vertex_buffers;
   std::vector<ShaderModule> shaders;
   std::vector<Pipeline> pipelines;
   std::vector<Index> pipeline_shaders;

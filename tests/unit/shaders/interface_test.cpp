@@ -91,7 +91,7 @@ TEST_F(Interface, RasterStages) {
   dsl::Pass& pass = raster({access(hdr, Mode::write, Role::color), access(ids, Mode::write, Role::color)}, "x", "y");
   pass.draw.kind = dsl::DrawKind::host;
   pass.draw.per_draw = program.structs.add(draw);
-  pass.draw.vertex = {program.structs.add(vertex)};
+  pass.draw.vertex = {{program.structs.add(vertex)}};
   const std::string push = "layout(push_constant, std430) uniform rg_block_per_draw { Draw per_draw; };\n";
   const std::string vertex_text = prelude(pass, dsl::stage_vertex), fragment_text = prelude(pass, dsl::stage_fragment);
   EXPECT_NE(vertex_text.find(push + "layout(location = 0) in mat4 place;\nlayout(location = 4) in vec3 tint;\n"), std::string::npos) << vertex_text;

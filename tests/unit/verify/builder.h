@@ -34,6 +34,7 @@ struct PlanTables {
   std::vector<Rendering> renderings;
   std::vector<Attachment> attachments;
   std::vector<Transfer> transfers;
+  std::vector<VertexBuffer> vertex_buffers;
   std::vector<std::string_view> conditions;
   std::vector<uint32_t> program_pass, program_resource;
   Plan view() const;

@@ -87,5 +87,76 @@ TEST(Work, IndirectArguments) {
   }
 }
 
+// Three of the four indices of a draw, vertices and indices in buffers of their own.
+struct Drawing {
+  Builder b;
+  dsl::ResourceId vertices, indices;
+  Drawing() {
+    vertices = b.buffer("vertices"), indices = b.buffer("indices");
+    const auto x = b.image("x");
+    b.start(x, Layout::color_attachment, st::color_attachment_output, ac::color_attachment_write);
+    const auto pass = b.raster("draw", {writes(x, Role::color).cleared(), reads(vertices, Role::vertex), reads(indices, Role::index)});
+    dsl::Draw& draw = b.graph().passes[pass].draw;
+    draw.kind = dsl::DrawKind::direct, draw.indexed = true, draw.indices = 2;
+    draw.vertices = dsl::ExprId{b.program_constant(3)}, draw.instances = dsl::ExprId{b.program_constant(2)};
+    draw.first = dsl::ExprId{b.program_constant(1)}, draw.offset = dsl::ExprId{b.program_constant(7)};
+    draw.vertex = {{{}, false, 1}};
+    b.plan.vertex_buffers.push_back({{vertices.value, 0}, kNone});
+    work().kind = WorkKind::draw_indexed;
+    work().x = b.constant(3), work().y = b.constant(2), work().first = b.constant(1), work().vertex_offset = b.constant(7);
+    work().vertex_buffer_count = 1;
+    work().indices = {indices.value, 0};
+  }
+  rg::Work& work() { return b.plan.passes[0].work; }
+  std::string found() {
+    std::string text;
+    for (const Finding& finding : b.check()) text += finding.text;
+    return text;
+  }
+};
+
+TEST(Work, DrawsAsDeclared) { EXPECT_EQ(Drawing().found(), ""); }
+
+TEST(Work, DrawsOfOtherVertices) {
+  for (Index rg::Work::*const field : {&rg::Work::x, &rg::Work::y, &rg::Work::first, &rg::Work::vertex_offset}) {
+    Drawing drawing;
+    drawing.work().*field = drawing.b.constant(5);
+    EXPECT_EQ(drawing.found(), "`draw`: the plan draws other vertices than declared");
+  }
+  Drawing plain;
+  plain.work().kind = WorkKind::draw;
+  EXPECT_EQ(plain.found(), "`draw`: the plan draws in another way than declared");
+}
+
+TEST(Work, DrawsFromOtherBuffers) {
+  Drawing swapped;
+  swapped.b.plan.vertex_buffers[0].ref.resource = swapped.indices.value;
+  EXPECT_EQ(swapped.found(), "`draw` and `vertices`: the plan takes its vertices from elsewhere");
+  Drawing moved;
+  moved.work().indices_offset = moved.b.constant(4);
+  EXPECT_EQ(moved.found(), "`draw` and `indices`: the plan takes its indices from elsewhere");
+  Drawing unbound;
+  unbound.work().vertex_buffer_count = 0;
+  EXPECT_EQ(unbound.found(), "`draw`: the plan binds another number of vertex buffers than declared");
+}
+
+TEST(Work, TargetsAsDeclared) {
+  const auto found = [](auto change) {
+    Builder b;
+    const auto x = b.image("x");
+    b.start(x, Layout::color_attachment, st::color_attachment_output, ac::color_attachment_write);
+    b.raster("w", {writes(x, Role::color).cleared()});
+    change(b);
+    std::string text;
+    for (const Finding& finding : b.check()) text += finding.text;
+    return text;
+  };
+  EXPECT_EQ(found([](Builder&) {}), "");
+  EXPECT_EQ(found([](Builder& b) { b.plan.attachments[0].view_format = static_cast<rg::Format>(37); }), "`w` and `x`: the attachment is seen otherwise than declared");
+  EXPECT_EQ(found([](Builder& b) { b.plan.attachments[0].slices = 1; }), "`w` and `x`: the attachment is seen otherwise than declared");
+  EXPECT_EQ(found([](Builder& b) { b.plan.renderings[0].layers = 2; }), "`w`: the rendering has another number of layers than declared");
+  EXPECT_EQ(found([](Builder& b) { b.plan.renderings[0].view_mask = 1; }), "`w`: the rendering has other views than declared");
+}
+
 }  // namespace
 }  // namespace rg::verify

@@ -1,0 +1,21 @@
+// Frames on a real driver, and what they leave in a buffer.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "tests/unit/e2e/compiled.h"
+
+namespace rg::test {
+
+using Words = std::vector<uint32_t>;
+
+// The checker finds nothing wrong with any plan.
+void expect_proved(const compiler::CompileResult& result);
+
+// The words of the one buffer that is read back, after as many frames; none where something failed. No value where there is no device.
+// With `validate`, what Khronos validation reports fails the test.
+std::optional<Words> run(const Files& files, uint32_t frames = 1, bool validate = false);
+
+}  // namespace rg::test
