@@ -27,6 +27,15 @@ struct Placement {
 
 namespace detail {
 
+// xorshift64: small, fast, and the same everywhere.
+struct Random {
+  uint64_t state = 0x9E3779B97F4A7C15;
+  uint32_t below(uint32_t n) {
+    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    return static_cast<uint32_t>((state >> 32) * n >> 32);
+  }
+};
+
 // Items that conflict with each item, as flat lists.
 struct Neighbours {
   std::vector<size_t> first;
