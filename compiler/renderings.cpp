@@ -239,7 +239,7 @@ class Finder {
     return leader_of;
   }
   uint64_t peak_in_program_order(const Graph& graph, const std::vector<uint32_t>& leader_of) const {
-    const ScheduleProblem problem = make_problem(frame_, graph, live_, leader_of, options_.no_reorder);
+    const ScheduleProblem problem = make_problem(frame_, graph, live_, leader_of, options_);
     return cost_of(problem.segments, program_order_segments(problem.segments)).peak;
   }
 
