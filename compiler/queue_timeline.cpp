@@ -171,7 +171,15 @@ class Chooser {
 
 }  // namespace
 
-QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of) { return Simulator(problem, queue_of).run(); }
+QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of) {
+  if (problem.queues > 1) return Simulator(problem, queue_of).run();
+  QueueTimeline timeline;  // the given order is legal, and nothing can be gained by another
+  for (uint32_t node = 0; node < problem.nodes.size(); ++node) {
+    timeline.start.push_back(timeline.end), timeline.order.push_back(node);
+    timeline.end += problem.nodes[node].cost;
+  }
+  return timeline;
+}
 
 QueueChoice choose_queues(const QueueProblem& problem, double threshold, uint64_t effort) { return Chooser(problem, threshold, effort).run(); }
 

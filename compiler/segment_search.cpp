@@ -109,29 +109,56 @@ Segments spread_segments(const SegmentProblem& problem, uint32_t count) {
   return segments;
 }
 
-Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit) {
+namespace {
+
+// What keeps neighbouring segments apart, by segment.
+struct Seams {
+  std::vector<uint64_t> live, begins;  // bytes that live in it, and of those what begins in it
+  std::vector<uint32_t> after;         // one more than the last segment it has to come after; 0: none
+};
+Seams seams_of(const SegmentProblem& problem, const SegmentLinks& before, const Segments& segments) {
   const uint32_t count = count_of(segments);
-  std::vector<std::vector<uint32_t>> nodes(count);
-  for (uint32_t node = 0; node < problem.nodes; ++node) nodes[segments[node]].push_back(node);
-  std::vector<uint64_t> live(count), begins(count);
+  Seams seams{std::vector<uint64_t>(count), std::vector<uint64_t>(count), std::vector<uint32_t>(count)};
+  std::vector<uint64_t> ends(count + 1);
   for (const auto& item : problem.items) {
     const SegmentInterval interval = interval_of(item, segments);
-    begins[interval.begin] += item.bytes;
-    for (uint32_t s = interval.begin; s <= interval.end; ++s) live[s] += item.bytes;
+    seams.begins[interval.begin] += item.bytes, ends[interval.end + 1] += item.bytes;
   }
-  const SegmentLinks before = predecessors(problem);
-  Segments result(problem.nodes);
-  uint32_t current = 0;
-  uint64_t joined = 0;  // bytes live in the current one
-  for (uint32_t s = 0; s < count; ++s) {
-    bool cut = joined + begins[s] > limit && s > 0;
-    for (const uint32_t node : nodes[s])
-      for (const auto& link : before.of(node)) cut = cut || (link.gap == 1 && result[link.node] == current);
-    current += cut;
-    joined = cut || s == 0 ? live[s] : joined + begins[s];
-    for (const uint32_t node : nodes[s]) result[node] = current;
+  uint64_t live = 0;
+  for (uint32_t s = 0; s < count; ++s) seams.live[s] = live += seams.begins[s] - ends[s];
+  for (uint32_t node = 0; node < problem.nodes; ++node)
+    for (const auto& link : before.of(node))
+      if (link.gap == 1) seams.after[segments[node]] = std::max(seams.after[segments[node]], segments[link.node] + 1);
+  return seams;
+}
+
+struct Joined {
+  std::vector<uint32_t> number_of;  // by segment
+  SegmentCost cost;
+};
+Joined join(const Seams& seams, uint64_t limit) {
+  Joined joined{std::vector<uint32_t>(seams.live.size()), {seams.live.empty() ? 0u : 1u, 0}};
+  uint64_t live = 0;   // in the current one
+  uint32_t first = 0;  // of those that are the current one
+  for (uint32_t s = 0; s < seams.live.size(); ++s) {
+    const bool cut = s > 0 && (live + seams.begins[s] > limit || seams.after[s] > first);
+    live = cut || s == 0 ? seams.live[s] : live + seams.begins[s];
+    if (cut) ++joined.cost.segments, first = s;
+    joined.number_of[s] = joined.cost.segments - 1;
+    joined.cost.peak = std::max(joined.cost.peak, live);
   }
+  return joined;
+}
+Segments renumbered(const Segments& segments, const std::vector<uint32_t>& number_of) {
+  Segments result(segments.size());
+  for (size_t node = 0; node < segments.size(); ++node) result[node] = number_of[segments[node]];
   return result;
+}
+
+}  // namespace
+
+Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit) {
+  return renumbered(segments, join(seams_of(problem, predecessors(problem), segments), limit).number_of);
 }
 
 namespace {
@@ -169,16 +196,17 @@ PackingEffort packing_effort(const SegmentProblem& problem, Effort effort) {
 // What was tried and not beaten, and what is found for each number of segments.
 class Search {
  public:
-  Search(const SegmentProblem& problem, Prefer prefer) : problem_(problem), prefer_(prefer) {}
+  Search(const SegmentProblem& problem, Prefer prefer) : problem_(problem), before_(predecessors(problem)), prefer_(prefer) {}
 
   // Gives the score of the better of two ways to join segments.
   double consider(const Segments& candidate) {
     double found = std::numeric_limits<double>::max();
-    for (const uint64_t limit : {cost_of(problem_, candidate).peak, UINT64_MAX}) {
-      Segments compact = compact_segments(problem_, candidate, limit);
-      const SegmentCost cost = cost_of(problem_, compact);
-      found = std::min(found, score(cost, prefer_));
-      note(cost, std::move(compact));
+    const Seams seams = seams_of(problem_, before_, candidate);
+    const uint64_t peak = seams.live.empty() ? 0 : *std::max_element(seams.live.begin(), seams.live.end());
+    for (const uint64_t limit : {peak, UINT64_MAX}) {
+      const Joined joined = join(seams, limit);
+      found = std::min(found, score(joined.cost, prefer_));
+      note(joined.cost, [&] { return renumbered(candidate, joined.number_of); });
     }
     return found;
   }
@@ -212,15 +240,17 @@ class Search {
   };
 
   // Keeps those that no other beats in both.
-  void note(const SegmentCost& cost, Segments segments) {
+  template <class Make>
+  void note(const SegmentCost& cost, Make segments) {
     const auto beats = [](const SegmentCost& a, const SegmentCost& b) { return a.segments <= b.segments && a.peak <= b.peak; };
     if (std::any_of(tried_.begin(), tried_.end(), [&](const Tried& other) { return beats(other.cost, cost); })) return;
     std::erase_if(tried_, [&](const Tried& other) { return beats(cost, other.cost); });
     const auto place = std::lower_bound(tried_.begin(), tried_.end(), cost, [](const Tried& a, const SegmentCost& b) { return a.cost.segments < b.segments; });
-    tried_.insert(place, {cost, std::move(segments)});
+    tried_.insert(place, {cost, segments()});
   }
 
   const SegmentProblem& problem_;
+  SegmentLinks before_;
   Prefer prefer_;
   std::vector<Tried> tried_;  // by segments
 };
