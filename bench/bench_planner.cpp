@@ -54,7 +54,8 @@ void add_choices(Rows& rows, const BenchGraph& graph, const compiler::FramePlan&
   for (const auto& point : one.order.frontier)
     rows.push_back(
         {prefix + "frontier/" + std::to_string(point.groups), (static_cast<double>(point.bytes) + persistent_bytes(one.plan)) / kMB, "MB", {}, ""});
-  rows.push_back({prefix + "ordered_pairs", static_cast<double>(one.order.ordered_pairs), "count", static_cast<double>(one.order.needed_pairs),
+  const compiler::OrderFacts order = compiler::plan_frame(graph.program, dsl::GraphId{0}, {}, {.reasons = true}).order;
+  rows.push_back({prefix + "ordered_pairs", static_cast<double>(order.ordered_pairs), "count", static_cast<double>(order.needed_pairs),
                   "pairs the program needs"});
   const compiler::PlanOptions options = {.queues = {dsl::QueueKind::graphics, dsl::QueueKind::compute}};
   const compiler::FramePlan two = compiler::plan_frame(graph.program, dsl::GraphId{0}, {}, options);

@@ -1,6 +1,7 @@
 #include "compiler/access_table.h"
 
 #include <array>
+#include <bit>
 
 #include "dsl/check_macro.h"
 
@@ -182,29 +183,32 @@ constexpr std::array<Stages, 11> kGraphics = {
     stage::tess_control_shader, stage::tess_eval_shader,    stage::geometry_shader,         stage::early_fragment_tests,
     stage::fragment_shader,     stage::late_fragment_tests, stage::color_attachment_output,
 };
+
+// What is logically earlier and later than each single stage, by bit.
+struct LogicalOrder {
+  std::array<Stages, 64> earlier{}, later{};
+  constexpr LogicalOrder() {
+    for (uint32_t bit = 0; bit < 64; ++bit) earlier[bit] = later[bit] = Stages{1} << bit;
+    const auto add = [&](Stages before, Stages after) {
+      earlier[static_cast<size_t>(std::countr_zero(after))] |= before, later[static_cast<size_t>(std::countr_zero(before))] |= after;
+    };
+    add(stage::draw_indirect, stage::compute_shader);
+    for (size_t i = 0; i < kGraphics.size(); ++i)
+      for (size_t j = i + 1; j < kGraphics.size(); ++j) add(kGraphics[i], kGraphics[j]);
+  }
+};
+constexpr LogicalOrder kOrder;
+
+Stages closure(Stages stages, const std::array<Stages, 64>& of_bit) {
+  Stages result = stages;
+  for (Stages rest = stages; rest; rest &= rest - 1) result |= of_bit[static_cast<size_t>(std::countr_zero(rest))];
+  return result;
+}
+
 }  // namespace
 
-Stages with_earlier(Stages stages) {
-  Stages result = stages;
-  if (stages & stage::compute_shader) result |= stage::draw_indirect;
-  Stages before = 0;
-  for (const Stages step : kGraphics) {
-    if (stages & step) result |= before;
-    before |= step;
-  }
-  return result;
-}
-
-Stages with_later(Stages stages) {
-  Stages result = stages;
-  if (stages & stage::draw_indirect) result |= stage::compute_shader;
-  bool reached = false;
-  for (const Stages step : kGraphics) {
-    reached = reached || (stages & step);
-    if (reached) result |= step;
-  }
-  return result;
-}
+Stages with_earlier(Stages stages) { return closure(stages, kOrder.earlier); }
+Stages with_later(Stages stages) { return closure(stages, kOrder.later); }
 
 Stages latest_stages(Stages stages) {
   Stages result = stages;

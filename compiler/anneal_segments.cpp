@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "compiler/segment_graph.h"
 
@@ -16,6 +17,12 @@ struct Random {
   double unit() { return static_cast<double>(below(1u << 24)) / (1u << 24); }
 };
 
+// Lists of numbers by row, one after the other.
+struct Lists {
+  std::vector<uint32_t> first, values;
+  std::span<const uint32_t> of(uint32_t row) const { return {values.data() + first[row], first[row + 1] - first[row]}; }
+};
+
 class Annealer {
  public:
   Annealer(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t seed)
@@ -24,29 +31,60 @@ class Annealer {
         after_(successors(problem)),
         segments_(start),
         live_(count),
-        items_of_(problem.nodes),
+        energy_(count),
         stamp_(problem.items.size()),
         random_{seed * 0x9E3779B97F4A7C15} {
-    for (uint32_t i = 0; i < problem.items.size(); ++i) {
-      for (const uint32_t user : problem.items[i].users) items_of_[user].push_back(i);
-      intervals_.push_back(interval_of(problem.items[i], segments_));
-      weights_.push_back(static_cast<double>(problem.items[i].bytes));
-      for (uint32_t s = intervals_[i].begin; s <= intervals_[i].end; ++s) live_[s] += weights_[i];
-    }
+    list_users();
+    for (const auto& item : problem.items) weights_.push_back(static_cast<double>(item.bytes));
+    intervals_.resize(problem.items.size());
+    count_live();
     best_ = segments_, best_peak_ = std::max(1.0, *std::max_element(live_.begin(), live_.end()));
-    inverse_ = 1 / best_peak_;
+    set_scale(best_peak_);
   }
 
-  Segments run(uint64_t evaluations) {
-    const uint64_t first = evaluations * 3 / 10;
-    cool(first);
+  Segments run(uint64_t evaluations, bool warm) {
+    const uint64_t first = warm ? 0 : evaluations * 6 / 10;
+    if (!warm) cool(first);
     segments_ = best_;
     count_live();
     squeeze(evaluations - first);
     return best_;
   }
 
+  // What else keeps the peak: `evaluations` moves that nothing but the peak holds back.
+  Segments drift(uint64_t evaluations) {
+    squeezes_ = true, heat_ = kHeat;
+    target_ = best_peak_;
+    set_scale(target_);
+    for (uint64_t i = 0; i < evaluations; ++i) {
+      step();
+      if (i + 1 == evaluations || (i & 255) == 255)
+        if (*std::max_element(live_.begin(), live_.end()) <= target_) best_ = segments_;
+    }
+    return best_;
+  }
+
  private:
+  void list_users() {
+    users_.first.push_back(0);
+    items_of_.first.assign(problem_.nodes + 1, 0);
+    for (const auto& item : problem_.items) {
+      users_.values.insert(users_.values.end(), item.users.begin(), item.users.end());
+      users_.first.push_back(static_cast<uint32_t>(users_.values.size()));
+      for (const uint32_t user : item.users) ++items_of_.first[user + 1];
+    }
+    std::partial_sum(items_of_.first.begin(), items_of_.first.end(), items_of_.first.begin());
+    items_of_.values.resize(users_.values.size());
+    std::vector<uint32_t> next(items_of_.first.begin(), items_of_.first.end() - 1);
+    for (uint32_t i = 0; i < problem_.items.size(); ++i)
+      for (const uint32_t user : users_.of(i)) items_of_.values[next[user]++] = i;
+  }
+  SegmentInterval interval(uint32_t item) const {
+    SegmentInterval result;
+    for (const uint32_t user : users_.of(item)) result.begin = std::min(result.begin, segments_[user]), result.end = std::max(result.end, segments_[user]);
+    return result;
+  }
+
   // All segments near the peak at once, smoothly.
   void cool(uint64_t evaluations) {
     constexpr double kHot = 0.5, kCold = 0.0005;
@@ -61,13 +99,12 @@ class Annealer {
   // Only what is above a target counts, so that everything else drifts freely; the target falls whenever it is met. Boundaries that drift left
   // without use go where it is tight.
   void squeeze(uint64_t evaluations) {
-    constexpr double kHeat = 0.003;
     squeezes_ = true, heat_ = kHeat;
     lower_target();
     for (uint64_t i = 0; i < evaluations; ++i) {
       if ((i & 255) == 0) {
         if (note_peak()) lower_target();
-        if ((i & 4095) == 0) move_boundary();
+        move_boundary();
         find_hot_nodes(target_);
       }
       step();
@@ -77,7 +114,7 @@ class Annealer {
   void lower_target() {
     constexpr double kStep = 0.01;
     target_ = best_peak_ * (1 - kStep);
-    inverse_ = 1 / std::max(1.0, target_);
+    set_scale(target_);
   }
   bool note_peak() {
     const double peak = *std::max_element(live_.begin(), live_.end());
@@ -89,9 +126,17 @@ class Annealer {
   void count_live() {
     std::fill(live_.begin(), live_.end(), 0.0);
     for (uint32_t i = 0; i < problem_.items.size(); ++i) {
-      intervals_[i] = interval_of(problem_.items[i], segments_);
+      intervals_[i] = interval(i);
       for (uint32_t s = intervals_[i].begin; s <= intervals_[i].end; ++s) live_[s] += weights_[i];
     }
+    count_energy();
+  }
+  void set_scale(double peak) {
+    inverse_ = 1 / std::max(1.0, peak);
+    count_energy();
+  }
+  void count_energy() {
+    for (size_t s = 0; s < live_.size(); ++s) energy_[s] = energy(live_[s]);
   }
 
   // Joins two segments that neither an edge nor the target keeps apart and opens an empty one beside a segment that is too full. O(problem).
@@ -128,15 +173,18 @@ class Annealer {
   void rescale() {
     const double peak = *std::max_element(live_.begin(), live_.end());
     if (peak < best_peak_) best_peak_ = peak, best_ = segments_;
-    inverse_ = 1 / std::max(1.0, best_peak_);
+    set_scale(best_peak_);
     find_hot_nodes(0.9 * peak);
   }
   // Those whose moves can lower a segment above the threshold.
   void find_hot_nodes(double threshold) {
+    full_before_.assign(live_.size() + 1, 0);
+    for (size_t s = 0; s < live_.size(); ++s) full_before_[s + 1] = full_before_[s] + (live_[s] > threshold);
     hot_.clear();
     for (uint32_t i = 0; i < intervals_.size(); ++i) {
-      const auto begin = live_.begin() + intervals_[i].begin, end = live_.begin() + intervals_[i].end + 1;
-      if (*std::max_element(begin, end) > threshold) hot_.insert(hot_.end(), problem_.items[i].users.begin(), problem_.items[i].users.end());
+      if (full_before_[intervals_[i].end + 1] == full_before_[intervals_[i].begin]) continue;
+      const auto users = users_.of(i);
+      hot_.insert(hot_.end(), users.begin(), users.end());
     }
   }
   uint32_t pick_node() { return !hot_.empty() && random_.below(4) != 0 ? hot_[random_.below(static_cast<uint32_t>(hot_.size()))] : random_.below(problem_.nodes); }
@@ -156,7 +204,7 @@ class Annealer {
     moved_.clear();
     if (!push(node, target)) return undo_segments();
     const double change = apply();
-    if (change > 0 && random_.unit() >= std::exp(-change / heat_)) return undo();
+    if (change > 0 && (change > kHopeless * heat_ || random_.unit() >= std::exp(-change / heat_))) return undo();
     note_best();
   }
 
@@ -178,13 +226,14 @@ class Annealer {
 
   double apply() {
     ++mark_;
-    touched_.clear();
+    touched_.clear(), changed_.clear();
     double change = 0;
     for (const auto& [node, from] : moved_)
-      for (const uint32_t item : items_of_[node]) {
+      for (const uint32_t item : items_of_.of(node)) {
         if (stamp_[item] == mark_) continue;
         stamp_[item] = mark_;
-        const SegmentInterval now = interval_of(problem_.items[item], segments_);
+        const SegmentInterval now = interval(item);
+        if (now.begin == intervals_[item].begin && now.end == intervals_[item].end) continue;
         touched_.push_back({item, intervals_[item]});
         change += replace(item, now);
       }
@@ -192,14 +241,20 @@ class Annealer {
   }
   void undo() {
     undo_segments();
-    for (size_t i = touched_.size(); i-- > 0;) replace(touched_[i].item, touched_[i].was);
+    for (const Touched& touched : touched_) intervals_[touched.item] = touched.was;
+    for (size_t i = changed_.size(); i-- > 0;) live_[changed_[i].segment] = changed_[i].live, energy_[changed_[i].segment] = changed_[i].energy;
   }
 
   double add(uint32_t begin, uint32_t end, double weight) {  // half-open
-    double change = 0;
-    for (uint32_t s = begin; s < end; ++s) {
-      change += energy(live_[s] + weight) - energy(live_[s]);
-      live_[s] += weight;
+    const size_t first = changed_.size();
+    changed_.resize(first + (end - begin));
+    Changed* log = changed_.data() + first;
+    double *live = live_.data(), *energies = energy_.data(), change = 0;
+    for (uint32_t s = begin; s < end; ++s, ++log) {
+      const double was = energies[s], now = energy(live[s] + weight);
+      *log = {s, live[s], was};
+      live[s] += weight, energies[s] = now;
+      change += now - was;
     }
     return change;
   }
@@ -222,7 +277,8 @@ class Annealer {
     if (peak < best_peak_) best_peak_ = peak, best_ = segments_;
   }
 
-  static constexpr size_t kMostPushed = 64;
+  static constexpr size_t kMostPushed = 16;
+  static constexpr double kHeat = 0.003, kHopeless = 20;  // of the squeeze; heats above which a move is not tried
   struct Moved {
     uint32_t node, from;
   };
@@ -230,17 +286,22 @@ class Annealer {
     uint32_t item;
     SegmentInterval was;
   };
+  struct Changed {
+    uint32_t segment;
+    double live, energy;
+  };
   const SegmentProblem& problem_;
   SegmentLinks before_, after_;
   Segments segments_, best_;
-  std::vector<double> live_, weights_;
-  std::vector<std::vector<uint32_t>> items_of_;
+  std::vector<double> live_, energy_, weights_;  // by segment; by item
+  Lists users_, items_of_;                       // by item; by node
   std::vector<SegmentInterval> intervals_;
   std::vector<uint64_t> stamp_;
   Random random_;
   std::vector<Moved> moved_;
   std::vector<Touched> touched_;
-  std::vector<uint32_t> hot_;
+  std::vector<Changed> changed_;
+  std::vector<uint32_t> hot_, full_before_;
   uint64_t mark_ = 0;
   double inverse_ = 1, heat_ = 0, best_peak_ = 0, target_ = 0;
   bool squeezes_ = false;
@@ -248,9 +309,15 @@ class Annealer {
 
 }  // namespace
 
-Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed) {
+Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed, bool warm) {
   if (problem.nodes == 0 || problem.items.empty()) return start;
-  return Annealer(problem, start, count, seed).run(evaluations);
+  return Annealer(problem, start, count, seed).run(evaluations, warm);
+}
+
+Segments drift_segments(const SegmentProblem& problem, const Segments& start, uint64_t evaluations, uint64_t seed) {
+  if (problem.nodes == 0 || problem.items.empty()) return start;
+  const uint32_t count = *std::max_element(start.begin(), start.end()) + 1;
+  return Annealer(problem, start, count, seed).drift(evaluations);
 }
 
 }  // namespace rg::compiler

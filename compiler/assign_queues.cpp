@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <map>
+#include <functional>
 #include <numeric>
+#include <queue>
 #include <set>
 
 #include "compiler/pass_cost.h"
@@ -14,6 +16,7 @@ namespace {
 
 constexpr double kThreshold = 0.005;  // of the frame's serial time: less is not worth a second queue
 constexpr uint64_t kEffort = 5'000'000;
+constexpr double kEnough = 0.95, kWorthwhile = 0.01;  // of what overlap can gain: look no further; take another order
 
 std::string_view kind_name(dsl::QueueKind kind) {
   constexpr std::string_view names[] = {"graphics", "compute", "transfer"};
@@ -188,7 +191,7 @@ class Assigner {
     order_importers();
     keep_renderings_together();
     group_neighbours();
-    QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort);
+    QueueChoice choice = choose_order();
     if (problem_.queues > 1) {
       const LayoutGuard guard(frame_, one_queue_);
       for (bool changed = guard.enforce(choice.queue_of, problem_.nodes); changed;) changed = guard.enforce(choice.queue_of, problem_.nodes);
@@ -203,6 +206,55 @@ class Assigner {
   }
 
  private:
+  // The order for one queue may leave queues idle, because what they wait for comes late in it. Then others are tried that hurry what movable passes
+  // need and put off what needs them, less before more: lives grow longer with the distance.
+  QueueChoice choose_order() {
+    QueueChoice best = choose_queues(problem_, kThreshold * total(), kEffort);
+    const double possible = best.gain.serial - best.gain.bound;
+    std::vector<uint32_t> rank;
+    for (const uint32_t distance : {2u, 4u, 8u, 16u, 32u}) {
+      const uint64_t spent = best.simulations * problem_.nodes.size();
+      if (!may_reorder() || spent >= kEffort || distance > problem_.window || best.gain.serial - best.gain.end >= kEnough * possible) break;
+      problem_.rank = urgent_order(distance);
+      QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort - spent);
+      best.simulations = choice.simulations += best.simulations;
+      if (best.gain.end - choice.gain.end < kWorthwhile * possible) continue;
+      best = std::move(choice), rank = problem_.rank;
+    }
+    problem_.rank = std::move(rank);
+    return best;
+  }
+
+  bool may_reorder() const { return problem_.queues > 1 && options_.reorder && options_.no_reorder.empty() && options_.prefer != Prefer::order; }
+
+  // Ranks in a legal order (Kahn 1962): what a movable node needs is due `distance` before it, what needs one comes as much later.
+  std::vector<uint32_t> urgent_order(uint32_t distance) const {
+    const size_t n = problem_.nodes.size();
+    std::vector<int64_t> due(n);
+    std::vector<std::vector<uint32_t>> after(n);
+    std::vector<uint32_t> waits(n), rank(n);
+    for (size_t node = 0; node < n; ++node) due[node] = static_cast<int64_t>(node);
+    for (const auto& edge : problem_.edges) after[edge.before].push_back(edge.after), ++waits[edge.after];
+    for (size_t node = n; node-- > 0;)
+      for (const uint32_t next : after[node]) {
+        const bool movable = problem_.nodes[next].away != UINT32_MAX;
+        due[node] = std::min(due[node], movable ? int64_t{next} - distance : due[next]);
+      }
+    for (const auto& edge : problem_.edges)
+      if (problem_.nodes[edge.before].away != UINT32_MAX) due[edge.after] = std::max(due[edge.after], int64_t{edge.before} + distance);
+    std::priority_queue<std::pair<int64_t, uint32_t>, std::vector<std::pair<int64_t, uint32_t>>, std::greater<>> ready;
+    for (uint32_t node = 0; node < n; ++node)
+      if (waits[node] == 0) ready.emplace(due[node], node);
+    for (uint32_t next = 0; !ready.empty(); ++next) {
+      const uint32_t node = ready.top().second;
+      ready.pop();
+      rank[node] = next;
+      for (const uint32_t later : after[node])
+        if (--waits[later] == 0) ready.emplace(due[later], later);
+    }
+    return rank;
+  }
+
   double total() const {
     return std::accumulate(problem_.nodes.begin(), problem_.nodes.end(), 0.0, [](double sum, const auto& node) { return sum + node.cost; });
   }

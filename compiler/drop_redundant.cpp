@@ -19,14 +19,14 @@ class Dropper {
         sync_(sync),
         order_(frame, schedule, sync),
         signals_on_(schedule.queues.size()),
-        watched_by_(order_.scopes.size()) {
+        watches_of_(order_.scopes.size()) {
     Obligations found = find_obligations(frame, schedule, lines, sync, order_);
     facts_ = std::move(found.facts), without_ = std::move(found.without), last_uses_ = std::move(found.last_uses);
     rests_on_.resize(facts_.size());
-    std::vector<SyncAtom> atoms;
+    atoms_.reserve(3 * facts_.size()), watches_.reserve(3 * facts_.size());
     for (uint32_t fact = 0; fact < facts_.size(); ++fact) {
-      if (order_.derive(facts_[fact], atoms))
-        rest(fact, atoms);
+      if (order_.derive(facts_[fact], found_))
+        rest(fact, found_);
       else
         sync.unproved += !facts_[fact].optional;
     }
@@ -56,46 +56,59 @@ class Dropper {
   struct Watch {
     AtomField field;
     uint8_t bit;
-    uint32_t fact;
+    uint32_t fact, next;
+  };
+  struct Watches {
+    uint32_t first = UINT32_MAX, last = UINT32_MAX;
+  };
+  struct Atoms {
+    uint32_t first = 0, count = 0;
   };
 
-  void rest(uint32_t fact, const std::vector<SyncAtom>& atoms) {
-    rests_on_[fact] = atoms;
-    for (const SyncAtom& atom : atoms) watched_by_[atom.scope].push_back({atom.field, atom.bit, fact});
+  // What a fact rests on, and who watches a scope, lie in two pools: there are many of both, and most are never looked at.
+  void rest(uint32_t fact, std::span<const SyncAtom> atoms) {
+    rests_on_[fact] = {static_cast<uint32_t>(atoms_.size()), static_cast<uint32_t>(atoms.size())};
+    atoms_.insert(atoms_.end(), atoms.begin(), atoms.end());
+    for (const SyncAtom& atom : atoms) {
+      const auto watch = static_cast<uint32_t>(watches_.size());
+      watches_.push_back({atom.field, atom.bit, fact, UINT32_MAX});
+      Watches& of = watches_of_[atom.scope];
+      (of.last == UINT32_MAX ? of.first : watches_[of.last].next) = watch;
+      of.last = watch;
+    }
   }
 
   // True if what `change` does to the scope leaves all facts standing; otherwise nothing has changed.
   template <class Change>
   bool attempt(uint32_t s, const SyncAtom& atom, Change change, const std::vector<SyncFact>& instead = {}) {
-    const SyncScope saved = order_.scopes[s];
+    const HappensBefore::Saved saved = order_.save(s);
     change(order_.scopes[s]);
     order_.refresh(s);
-    std::vector<std::pair<uint32_t, std::vector<SyncAtom>>> derived;
-    std::vector<SyncAtom> atoms;
+    derived_.clear(), derived_atoms_.clear();
     bool holds = true;
-    for (const SyncFact& fact : instead) {
-      holds = holds && order_.derive(fact, atoms);
-      derived.emplace_back(static_cast<uint32_t>(facts_.size() + derived.size()), atoms);
-    }
-    const std::vector<Watch>& watches = watched_by_[s];
-    for (size_t i = 0; i < watches.size() && holds; ++i) {
-      const Watch& watch = watches[i];
+    const auto derive = [&](const SyncFact& fact, uint32_t number) {
+      holds = holds && order_.derive(fact, found_);
+      derived_.push_back({number, {static_cast<uint32_t>(derived_atoms_.size()), static_cast<uint32_t>(found_.size())}});
+      derived_atoms_.insert(derived_atoms_.end(), found_.begin(), found_.end());
+    };
+    for (const SyncFact& fact : instead) derive(fact, static_cast<uint32_t>(facts_.size() + derived_.size()));
+    for (uint32_t w = watches_of_[s].first; w != UINT32_MAX && holds; w = watches_[w].next) {
+      const Watch& watch = watches_[w];
       if (watch.field != atom.field || watch.bit != atom.bit || !rests_on(watch.fact, atom) || is_about(watch.fact, order_.scopes[s], s)) continue;
-      holds = order_.derive(facts_[watch.fact], atoms);
-      derived.emplace_back(watch.fact, atoms);
+      derive(facts_[watch.fact], watch.fact);
     }
     if (!holds) {
-      order_.scopes[s] = saved;
-      order_.refresh(s);
+      order_.restore(s, saved);
       return false;
     }
     facts_.insert(facts_.end(), instead.begin(), instead.end());
     rests_on_.resize(facts_.size());
-    for (const auto& [fact, on] : derived) rest(fact, on);
+    for (const auto& [fact, on] : derived_) rest(fact, std::span(derived_atoms_).subspan(on.first, on.count));
     return true;
   }
   bool rests_on(uint32_t fact, const SyncAtom& atom) const {
-    return std::find(rests_on_[fact].begin(), rests_on_[fact].end(), atom) != rests_on_[fact].end();
+    const auto first = atoms_.begin() + rests_on_[fact].first, last = first + rests_on_[fact].count;
+    return std::find(first, last, atom) != last;
   }
   // The fact is gone with the transition.
   bool is_about(uint32_t fact, const SyncScope& scope, uint32_t s) const {
@@ -220,8 +233,12 @@ class Dropper {
   std::vector<uint32_t> last_uses_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> last_slot_;  // of transients, by resource and queue
   std::vector<std::vector<uint32_t>> signals_on_;                // by queue: scopes
-  std::vector<std::vector<SyncAtom>> rests_on_;                  // by fact
-  std::vector<std::vector<Watch>> watched_by_;                   // by scope
+  std::vector<SyncAtom> atoms_;
+  std::vector<Atoms> rests_on_;  // by fact
+  std::vector<Watch> watches_;
+  std::vector<Watches> watches_of_;                  // by scope
+  std::vector<std::pair<uint32_t, Atoms>> derived_;  // of the attempt being made, by fact
+  std::vector<SyncAtom> derived_atoms_, found_;
 };
 
 }  // namespace

@@ -157,7 +157,7 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
   const std::vector<Index> groups = groups_of_slots(parts);
   for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
     for (const CellBarrier& b : parts.sync.groups[slot]) {
-      const std::string reason = b.reason + (b.wraps ? ", against the frame before" : "");
+      const std::string reason = fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
       const std::string& resource = parts.frame.resource_of(b.cell).name;
       out.push_back({fmt::format("group {}", groups[slot]), "barrier", fmt::format("`{}`: {}{}", resource, reason, remedy(b))});
       out.push_back({resource, "barrier", fmt::format("in group {}: {}{}", groups[slot], reason, remedy(b))});

@@ -118,6 +118,16 @@ void HappensBefore::refresh(uint32_t index) {
     if (!scopes[s].gone) point.src_earlier |= scopes[s].src_earlier, point.dst_later |= scopes[s].dst_later;
 }
 
+HappensBefore::Saved HappensBefore::save(uint32_t index) const {
+  const Point& point = points_[scopes[index].point];
+  return {scopes[index], point.src_earlier, point.dst_later};
+}
+void HappensBefore::restore(uint32_t index, const Saved& saved) {
+  scopes[index] = saved.scope;
+  Point& point = points_[saved.scope.point];
+  point.src_earlier = saved.src_earlier, point.dst_later = saved.dst_later;
+}
+
 // ---- one source, forward ----------------------------------------------------------------------------------------
 
 void HappensBefore::start(const SyncSource& source) {

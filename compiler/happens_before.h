@@ -86,6 +86,13 @@ class HappensBefore {
   std::span<const uint32_t> on_cell(uint32_t cell) const { return on_cell_[cell]; }
   // After the masks of a scope have changed.
   void refresh(uint32_t scope);
+  // A scope and what its point sums up, to be as they were.
+  struct Saved {
+    SyncScope scope;
+    Stages src_earlier = 0, dst_later = 0;
+  };
+  Saved save(uint32_t scope) const;
+  void restore(uint32_t scope, const Saved& saved);
 
   // True if the fact holds; `atoms` then receives one derivation. O(points between source and target * barriers of those that go on).
   bool derive(const SyncFact& fact, std::vector<SyncAtom>& atoms);

@@ -30,7 +30,7 @@ void part(uint32_t node, Segments& segments) {
 
 Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const Renderings& renderings,
                        const PlanOptions& options) {
-  const ScheduleProblem all = make_problem(frame, graph, live, renderings.leader_of, options.no_reorder);
+  const ScheduleProblem all = make_problem(frame, graph, live, renderings.leader_of, options);
   const SegmentProblem& problem = all.segments;
   const Segments program_order = program_order_segments(problem);
   SegmentResult found{program_order, {}, 0, "program order"};

@@ -50,6 +50,9 @@ void sort_by(const Frame& frame, std::vector<CellBarrier>& group, Place place) {
 }  // namespace
 
 void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group) {
+  std::stable_sort(group.begin(), group.end(), [](const CellBarrier& a, const CellBarrier& b) { return a.cell < b.cell; });
+  const auto neighbours = [&](const CellBarrier& a, const CellBarrier& b) { return frame.cells[a.cell].resource == frame.cells[b.cell].resource; };
+  if (std::adjacent_find(group.begin(), group.end(), neighbours) == group.end()) return;  // the usual case: one cell a resource
   sort_by(frame, group, [](const CellBarrier& b) { return std::tuple(b.range.mip, b.range.layer, b.begin); });
   join_neighbours(frame, group, join_bytes);
   join_neighbours(frame, group, join_layers);

@@ -11,6 +11,7 @@ namespace {
 
 // The part of an image's bytes that mips [mip, mip + mips) of `layers` layers make.
 double share_of(const dsl::Resource& resource, const Range& range) {
+  if (range.mips == resource.mips) return static_cast<double>(range.layers) / std::max(1u, resource.layers);
   const double whole = 1 - std::pow(0.25, resource.mips);
   const double part = std::pow(0.25, range.mip) - std::pow(0.25, range.mip + range.mips);
   return part / whole * range.layers / std::max(1u, resource.layers);

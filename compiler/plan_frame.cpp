@@ -84,9 +84,14 @@ uint64_t weigh_pairs(size_t nodes, const std::vector<std::pair<uint32_t, uint32_
   return pairs;
 }
 
-OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& one_queue, const Schedule& schedule, const SyncPlan& sync) {
+OrderFacts order_facts(const Schedule& one_queue) {
   OrderFacts facts{one_queue.method, one_queue.evaluations, {}, 0, 0};
   for (const SegmentCost& cost : one_queue.frontier) facts.frontier.push_back({cost.segments, cost.peak});
+  return facts;
+}
+
+// Pairs of passes. O(dependencies * passes / 64).
+void count_pairs(const Frame& frame, const Graph& graph, const Schedule& schedule, const SyncPlan& sync, OrderFacts& facts) {
   const size_t nodes = schedule.order.size();
   std::vector<uint32_t> node_of(frame.passes.size());
   for (uint32_t node = 0; node < nodes; ++node) node_of[schedule.order[node]] = node;
@@ -100,7 +105,7 @@ OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& o
   if (schedule.batches == 1) {  // all but those of one segment
     facts.ordered_pairs = nodes * (nodes - 1) / 2;
     for (const uint64_t passes : size) facts.ordered_pairs -= passes * (passes - 1) / 2;
-    return facts;
+    return;
   }
   // On the GPU: segments of a queue one after the other, batches after those they wait for.
   std::vector<std::pair<uint32_t, uint32_t>> steps;
@@ -115,7 +120,6 @@ OrderFacts order_facts(const Frame& frame, const Graph& graph, const Schedule& o
       if (wait.batch != kNone) steps.emplace_back(schedule.closing_slot(wait.batch) - wait.batch - 1, s);
   }
   facts.ordered_pairs = weigh_pairs(schedule.segments, steps, size);
-  return facts;
 }
 
 // Without queues that nothing runs on; the first stays.
@@ -206,9 +210,10 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
     return placed;
   });
 
-  result.decisions = watch.time("explain", [&] { return explain_plan(parts, graph, result.plan); });
+  result.decisions = watch.time("explain", [&] { return options.reasons ? explain_plan(parts, graph, result.plan) : Decisions(); });
   result.overlap = queues.overlap, result.unproved = sync.unproved;
-  result.order = order_facts(frame, graph, one_queue, schedule, sync);
+  result.order = order_facts(one_queue);
+  if (options.reasons) count_pairs(frame, graph, schedule, sync, result.order);
   result.decisions.insert(result.decisions.end(), renderings.decisions.begin(), renderings.decisions.end());
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());
   result.heap_bytes = memory.heap_bytes, result.unaliased_bytes = memory.unaliased_bytes, result.lower_bound_bytes = memory.lower_bound_bytes;

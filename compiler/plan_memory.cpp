@@ -53,9 +53,10 @@ uint64_t bound_on_queues(const Items& items, const Plan& view) {
   return max_weight_antichain(weights, edges);
 }
 
-uint64_t packing_effort(Effort effort) {
+// More than make_schedule() has spent on the order it has chosen.
+uint64_t packing_effort(Effort effort, size_t items) {
   if (effort == Effort::fast) return 100'000;
-  return effort == Effort::max ? 2'000'000'000 : packing::kDefaultEffort;
+  return effort == Effort::max ? 2'000'000'000 : 4000 * items;
 }
 
 }  // namespace
@@ -65,12 +66,12 @@ MemoryPlan place_transients(PlanData& plan, Effort effort) {
   const Items items = list_items(plan, view);
   MemoryPlan memory;
   for (const packing::Item& item : items.rows) memory.unaliased_bytes += item.bytes;
-  const uint64_t work = packing_effort(effort);
+  const uint64_t work = packing_effort(effort, items.rows.size());
   const bool one = plan.queues.size() == 1;
-  const packing::Placement placement = one ? packing::pack(items.rows, work) : packing::pack(items.rows, list_conflicts(items, view), work);
+  const packing::Placement placement =
+      one ? packing::pack(items.rows, work) : packing::pack(items.rows, list_conflicts(items, view), work, bound_on_queues(items, view));
   for (size_t i = 0; i < items.rows.size(); ++i) plan.resources[items.resources[i]].estimated_offset = placement.offsets[i];
   memory.heap_bytes = placement.heap_bytes, memory.lower_bound_bytes = placement.lower_bound_bytes;
-  if (!one) memory.lower_bound_bytes = std::max(memory.lower_bound_bytes, bound_on_queues(items, view));
   plan.estimated_heap_bytes = memory.heap_bytes;
   return memory;
 }

@@ -141,7 +141,7 @@ class Crosser {
     half.src_stages = from_.effect.write_stages | latest_stages(from_.effect.stages()), half.src_accesses = from_.effect.writes,
     half.dst_accesses = 0;
     half.dst_stages = signals_all(schedule_.batch_of[last_segment(from_)]) ? stage::none : half.src_stages & ~(half.src_stages - 1);
-    half.is_acquire = false, half.reason = "change of queue, " + b.reason;
+    half.is_acquire = false, half.changes_queue = true;
     const uint32_t slot = schedule_.closing_slot(schedule_.batch_of[last_segment(from_)]);
     b.src_accesses = 0;
     add_barrier(sync_, slot, std::move(half));

@@ -28,6 +28,9 @@ class Simulator {
     timeline_.start.assign(problem.nodes.size(), 0);
     started_.assign(problem.nodes.size(), false), released_ = started_;
     for (uint32_t node = 0; node < problem.nodes.size(); ++node) lanes_[queue_of[node]].nodes.push_back(node);
+    if (!problem.rank.empty())
+      for (Lane& lane : lanes_)
+        std::sort(lane.nodes.begin(), lane.nodes.end(), [&](uint32_t a, uint32_t b) { return problem.rank[a] < problem.rank[b]; });
     for (Lane& lane : lanes_) release(lane);
   }
 
@@ -44,11 +47,12 @@ class Simulator {
  private:
   static constexpr double kNever = 1e300;
   using Later = std::pair<double, uint32_t>;
+  using Ranked = std::pair<uint32_t, uint32_t>;  // with the node
   struct Lane {
     std::vector<uint32_t> nodes;  // in the given order
     size_t lowest = 0, released = 0;
     double free = 0;
-    std::priority_queue<uint32_t, std::vector<uint32_t>, std::greater<>> now;  // may run as soon as the lane is free
+    std::priority_queue<Ranked, std::vector<Ranked>, std::greater<>> now;  // may run as soon as the lane is free
     std::priority_queue<Later, std::vector<Later>, std::greater<>> soon;       // by the time their inputs are there
   };
 
@@ -69,8 +73,8 @@ class Simulator {
   }
 
   void start(Lane& lane, double at) {
-    while (!lane.soon.empty() && lane.soon.top().first <= at) lane.now.push(lane.soon.top().second), lane.soon.pop();
-    const uint32_t node = lane.now.top();
+    while (!lane.soon.empty() && lane.soon.top().first <= at) lane.now.push({problem_.rank_of(lane.soon.top().second), lane.soon.top().second}), lane.soon.pop();
+    const uint32_t node = lane.now.top().second;
     lane.now.pop();
     timeline_.start[node] = at, timeline_.order.push_back(node);
     started_[node] = true;
@@ -171,7 +175,15 @@ class Chooser {
 
 }  // namespace
 
-QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of) { return Simulator(problem, queue_of).run(); }
+QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of) {
+  if (problem.queues > 1) return Simulator(problem, queue_of).run();
+  QueueTimeline timeline;  // the given order is legal, and nothing can be gained by another
+  for (uint32_t node = 0; node < problem.nodes.size(); ++node) {
+    timeline.start.push_back(timeline.end), timeline.order.push_back(node);
+    timeline.end += problem.nodes[node].cost;
+  }
+  return timeline;
+}
 
 QueueChoice choose_queues(const QueueProblem& problem, double threshold, uint64_t effort) { return Chooser(problem, threshold, effort).run(); }
 

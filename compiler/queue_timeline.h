@@ -31,6 +31,8 @@ struct QueueProblem {
   uint32_t window = UINT32_MAX;  // how far, in nodes of its queue, one may run ahead of the given order
   std::vector<Node> nodes;       // in a good order for one queue, legal for all edges
   std::vector<Edge> edges;
+  std::vector<uint32_t> rank;  // by node, in another legal order to keep; empty: that of the nodes
+  uint32_t rank_of(uint32_t node) const { return rank.empty() ? node : rank[node]; }
 };
 
 using QueueOf = std::vector<uint32_t>;  // by node

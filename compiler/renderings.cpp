@@ -82,13 +82,14 @@ class Finder {
     const Key key = key_of(frame_, frame_.pass(pass));
     if (key.empty()) return;
     const auto [row, is_new] = last_.try_emplace(key, pass);
-    if (is_new) return remember(pass, pass);
+    if (is_new) return;
     const uint32_t leader = row->second;
+    if (!attachments_.contains(leader)) remember(leader, leader);
     const std::string obstacle = obstacle_to(leader, pass);
     if (!obstacle.empty()) {
       note(pass, "not merged", fmt::format("a rendering of its own, though its attachments are those of `{}`: {}", name(members_[leader].back()), obstacle));
       row->second = pass;
-      return remember(pass, pass);
+      return;
     }
     remember(leader, pass);
     result_.leader_of[pass] = leader;
@@ -241,7 +242,7 @@ class Finder {
     return leader_of;
   }
   uint64_t peak_in_program_order(const Graph& graph, const std::vector<uint32_t>& leader_of) const {
-    const ScheduleProblem problem = make_problem(frame_, graph, live_, leader_of, options_.no_reorder);
+    const ScheduleProblem problem = make_problem(frame_, graph, live_, leader_of, options_);
     return cost_of(problem.segments, program_order_segments(problem.segments)).peak;
   }
 

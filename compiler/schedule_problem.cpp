@@ -76,7 +76,7 @@ std::vector<uint32_t> legal_order(const std::vector<bool>& live, const std::vect
 }
 
 // Resources whose memory the order decides about.
-std::vector<SegmentProblem::Item> items_of(const Frame& frame, const std::vector<uint32_t>& node_of) {
+std::vector<SegmentProblem::Item> items_of(const Frame& frame, const std::vector<uint32_t>& node_of, const PlanOptions& options) {
   std::vector<SegmentProblem::Item> by_resource(frame.graph->resources.size());
   for (const Use& use : frame.uses) {
     const uint32_t node = node_of[use.pass];
@@ -85,6 +85,7 @@ std::vector<SegmentProblem::Item> items_of(const Frame& frame, const std::vector
     if (resource.lifetime != dsl::Lifetime::transient || resource.no_alias || resource.is_output) continue;
     SegmentProblem::Item& item = by_resource[frame.cells[use.cell].resource];
     item.bytes = frame.bytes[frame.cells[use.cell].resource];
+    item.alignment = resource.kind == dsl::ResourceKind::image ? options.image_alignment : options.buffer_alignment;
     if (item.users.empty() || item.users.back() != node) item.users.push_back(node);
   }
   std::erase_if(by_resource, [](const SegmentProblem::Item& item) { return item.users.empty(); });
@@ -94,11 +95,11 @@ std::vector<SegmentProblem::Item> items_of(const Frame& frame, const std::vector
 }  // namespace
 
 ScheduleProblem make_problem(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const std::vector<uint32_t>& leader_of,
-                             const std::set<std::string>& fixed) {
+                             const PlanOptions& options) {
   ScheduleProblem problem;
   Edges edges = edges_between(graph, leader_of);
-  fix_places(frame, live, leader_of, fixed, edges);
-  bool merged = !fixed.empty();
+  fix_places(frame, live, leader_of, options.no_reorder, edges);
+  bool merged = !options.no_reorder.empty();
   for (uint32_t pass = 0; pass < live.size(); ++pass) merged = merged || leader_of[pass] != pass;
   if (merged) join_parallel(edges);
   const std::vector<uint32_t> order = legal_order(live, leader_of, edges);
@@ -111,7 +112,7 @@ ScheduleProblem make_problem(const Frame& frame, const Graph& graph, const std::
     problem.passes[problem.node_of[pass]].push_back(pass);
   }
   for (auto& edge : edges) edge.before = problem.node_of[edge.before], edge.after = problem.node_of[edge.after];
-  problem.segments = {static_cast<uint32_t>(order.size()), std::move(edges), items_of(frame, problem.node_of)};
+  problem.segments = {static_cast<uint32_t>(order.size()), std::move(edges), items_of(frame, problem.node_of, options)};
   return problem;
 }
 

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "compiler/build_graph.h"
@@ -18,10 +16,10 @@ struct ScheduleProblem {
   std::vector<std::vector<uint32_t>> passes;  // by node, ascending
 };
 
-// Passes of `fixed` keep their place: what the program has before them runs before or beside them, what it has after them after or beside them.
+// Passes of `options.no_reorder` keep their place: what the program has before them runs before or beside them, what it has after them after or beside them.
 // Nodes are numbered in a legal order, those of earlier passes first. Pre-condition: dependencies between renderings have no cycle.
 // O((uses + dependencies) log).
 ScheduleProblem make_problem(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const std::vector<uint32_t>& leader_of,
-                             const std::set<std::string>& fixed = {});
+                             const PlanOptions& options);
 
 }  // namespace rg::compiler

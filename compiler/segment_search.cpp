@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "compiler/segment_graph.h"
+#include "runtime/packing.h"
 
 namespace rg::compiler {
 namespace {
@@ -108,29 +109,56 @@ Segments spread_segments(const SegmentProblem& problem, uint32_t count) {
   return segments;
 }
 
-Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit) {
+namespace {
+
+// What keeps neighbouring segments apart, by segment.
+struct Seams {
+  std::vector<uint64_t> live, begins;  // bytes that live in it, and of those what begins in it
+  std::vector<uint32_t> after;         // one more than the last segment it has to come after; 0: none
+};
+Seams seams_of(const SegmentProblem& problem, const SegmentLinks& before, const Segments& segments) {
   const uint32_t count = count_of(segments);
-  std::vector<std::vector<uint32_t>> nodes(count);
-  for (uint32_t node = 0; node < problem.nodes; ++node) nodes[segments[node]].push_back(node);
-  std::vector<uint64_t> live(count), begins(count);
+  Seams seams{std::vector<uint64_t>(count), std::vector<uint64_t>(count), std::vector<uint32_t>(count)};
+  std::vector<uint64_t> ends(count + 1);
   for (const auto& item : problem.items) {
     const SegmentInterval interval = interval_of(item, segments);
-    begins[interval.begin] += item.bytes;
-    for (uint32_t s = interval.begin; s <= interval.end; ++s) live[s] += item.bytes;
+    seams.begins[interval.begin] += item.bytes, ends[interval.end + 1] += item.bytes;
   }
-  const SegmentLinks before = predecessors(problem);
-  Segments result(problem.nodes);
-  uint32_t current = 0;
-  uint64_t joined = 0;  // bytes live in the current one
-  for (uint32_t s = 0; s < count; ++s) {
-    bool cut = joined + begins[s] > limit && s > 0;
-    for (const uint32_t node : nodes[s])
-      for (const auto& link : before.of(node)) cut = cut || (link.gap == 1 && result[link.node] == current);
-    current += cut;
-    joined = cut || s == 0 ? live[s] : joined + begins[s];
-    for (const uint32_t node : nodes[s]) result[node] = current;
+  uint64_t live = 0;
+  for (uint32_t s = 0; s < count; ++s) seams.live[s] = live += seams.begins[s] - ends[s];
+  for (uint32_t node = 0; node < problem.nodes; ++node)
+    for (const auto& link : before.of(node))
+      if (link.gap == 1) seams.after[segments[node]] = std::max(seams.after[segments[node]], segments[link.node] + 1);
+  return seams;
+}
+
+struct Joined {
+  std::vector<uint32_t> number_of;  // by segment
+  SegmentCost cost;
+};
+Joined join(const Seams& seams, uint64_t limit) {
+  Joined joined{std::vector<uint32_t>(seams.live.size()), {seams.live.empty() ? 0u : 1u, 0}};
+  uint64_t live = 0;   // in the current one
+  uint32_t first = 0;  // of those that are the current one
+  for (uint32_t s = 0; s < seams.live.size(); ++s) {
+    const bool cut = s > 0 && (live + seams.begins[s] > limit || seams.after[s] > first);
+    live = cut || s == 0 ? seams.live[s] : live + seams.begins[s];
+    if (cut) ++joined.cost.segments, first = s;
+    joined.number_of[s] = joined.cost.segments - 1;
+    joined.cost.peak = std::max(joined.cost.peak, live);
   }
+  return joined;
+}
+Segments renumbered(const Segments& segments, const std::vector<uint32_t>& number_of) {
+  Segments result(segments.size());
+  for (size_t node = 0; node < segments.size(); ++node) result[node] = number_of[segments[node]];
   return result;
+}
+
+}  // namespace
+
+Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit) {
+  return renumbered(segments, join(seams_of(problem, predecessors(problem), segments), limit).number_of);
 }
 
 namespace {
@@ -153,48 +181,99 @@ uint64_t total_evaluations(uint64_t nodes, Effort effort) {
   return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 30) : moves;
 }
 
-// The best so far, and what is found for each number of segments.
-struct Search {
-  const SegmentProblem& problem;
-  Prefer prefer;
-  SegmentResult result;
+// For each order that is packed: conflicts looked at, and how many orders like it are tried instead where it does not pack.
+struct PackingEffort {
+  uint64_t effort = 0;
+  uint32_t drifts = 0;
+};
+constexpr uint64_t kDriftMoves = 30;  // a node
 
+PackingEffort packing_effort(const SegmentProblem& problem, Effort effort) {
+  if (effort == Effort::max) return {100'000 * problem.items.size(), 10};
+  return {3000 * problem.items.size(), 6};
+}
+
+// What was tried and not beaten, and what is found for each number of segments.
+class Search {
+ public:
+  Search(const SegmentProblem& problem, Prefer prefer) : problem_(problem), before_(predecessors(problem)), prefer_(prefer) {}
+
+  // Gives the score of the better of two ways to join segments.
   double consider(const Segments& candidate) {
     double found = std::numeric_limits<double>::max();
-    for (const uint64_t limit : {cost_of(problem, candidate).peak, UINT64_MAX}) {
-      Segments compact = compact_segments(problem, candidate, limit);
-      const SegmentCost cost = cost_of(problem, compact);
-      note(cost);
-      found = std::min(found, score(cost, prefer));
-      if (score(cost, prefer) < score(cost_of(problem, result.best), prefer)) result.best = std::move(compact);
+    const Seams seams = seams_of(problem_, before_, candidate);
+    const uint64_t peak = seams.live.empty() ? 0 : *std::max_element(seams.live.begin(), seams.live.end());
+    for (const uint64_t limit : {peak, UINT64_MAX}) {
+      const Joined joined = join(seams, limit);
+      found = std::min(found, score(joined.cost, prefer_));
+      note(joined.cost, [&] { return renumbered(candidate, joined.number_of); });
     }
     return found;
   }
 
-  // Keeps those that no other beats in both.
-  void note(const SegmentCost& cost) {
-    auto& all = result.frontier;
-    const auto beats = [](const SegmentCost& a, const SegmentCost& b) { return a.segments <= b.segments && a.peak <= b.peak; };
-    if (std::any_of(all.begin(), all.end(), [&](const SegmentCost& other) { return beats(other, cost); })) return;
-    std::erase_if(all, [&](const SegmentCost& other) { return beats(cost, other); });
-    all.insert(std::lower_bound(all.begin(), all.end(), cost, [](const SegmentCost& a, const SegmentCost& b) { return a.segments < b.segments; }),
-               cost);
+  // Most orders can be packed to their peak, tight ones often cannot, but some like them can: packs them, the most promising first, until none left can
+  // be better. Without effort the peak is believed.
+  SegmentResult choose(const PackingEffort& packing) && {
+    std::vector<const Tried*> by_score;
+    for (const Tried& tried : tried_) by_score.push_back(&tried), result.frontier.push_back(tried.cost);
+    std::stable_sort(by_score.begin(), by_score.end(), [&](const Tried* a, const Tried* b) { return score(a->cost, prefer_) < score(b->cost, prefer_); });
+    double best = std::numeric_limits<double>::max();
+    for (const Tried* tried : by_score) {
+      if (score(tried->cost, prefer_) >= best) break;
+      Segments segments = tried->segments;
+      for (uint32_t drifts = 0;; segments = drift_segments(problem_, segments, kDriftMoves * problem_.nodes, ++drifts)) {
+        const uint64_t bytes = packing.effort ? packed_bytes(problem_, segments, packing.effort) : tried->cost.peak;
+        const double packed = score({tried->cost.segments, bytes}, prefer_);
+        if (packed < best) best = packed, result.best = segments;
+        if (bytes <= tried->cost.peak || drifts == packing.drifts) break;
+      }
+    }
+    return std::move(result);
   }
 
-  void anneal(const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed, std::vector<std::pair<double, uint32_t>>* ranking) {
-    result.evaluations += evaluations;
-    const double found = consider(anneal_segments(problem, start, count, evaluations, seed));
-    if (ranking) ranking->emplace_back(found, count);
+  SegmentResult result;
+
+ private:
+  struct Tried {
+    SegmentCost cost;
+    Segments segments;
+  };
+
+  // Keeps those that no other beats in both.
+  template <class Make>
+  void note(const SegmentCost& cost, Make segments) {
+    const auto beats = [](const SegmentCost& a, const SegmentCost& b) { return a.segments <= b.segments && a.peak <= b.peak; };
+    if (std::any_of(tried_.begin(), tried_.end(), [&](const Tried& other) { return beats(other.cost, cost); })) return;
+    std::erase_if(tried_, [&](const Tried& other) { return beats(cost, other.cost); });
+    const auto place = std::lower_bound(tried_.begin(), tried_.end(), cost, [](const Tried& a, const SegmentCost& b) { return a.cost.segments < b.segments; });
+    tried_.insert(place, {cost, segments()});
   }
+
+  const SegmentProblem& problem_;
+  SegmentLinks before_;
+  Prefer prefer_;
+  std::vector<Tried> tried_;  // by segments
 };
 
 }  // namespace
 
+uint64_t packed_bytes(const SegmentProblem& problem, const Segments& segments, uint64_t effort) {
+  std::vector<packing::Item> items;
+  items.reserve(problem.items.size());
+  for (const auto& item : problem.items) {
+    const SegmentInterval interval = interval_of(item, segments);
+    items.push_back({item.bytes, item.alignment, interval.begin, interval.end + 1});
+  }
+  return packing::pack(items, effort).heap_bytes;
+}
+
 SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer) {
   if (effort == Effort::fast && prefer == Prefer::balance) prefer = Prefer::memory;  // constructed orders that save groups spend too much on it
-  Search search{problem, prefer, {program_order_segments(problem), {}, 0, "program order"}};
-  search.consider(search.result.best);
-  if (problem.nodes < 2) return std::move(search.result);
+  Search search(problem, prefer);
+  const Segments program_order = program_order_segments(problem);
+  search.consider(program_order);
+  search.result.method = "program order";
+  if (problem.nodes < 2) return std::move(search).choose({});
   const Segments earliest = earliest_segments(problem);
   const uint32_t least = count_of(earliest);
   search.result.method = "list scheduling";
@@ -205,19 +284,26 @@ SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Pref
     search.consider(latest_segments(problem, count));
     search.consider(spread_segments(problem, count));
   }
-  if (effort == Effort::fast) return std::move(search.result);
+  if (effort == Effort::fast) return std::move(search).choose({});
 
-  // Half of the effort on every number of segments, the other half on the most promising.
+  // Half of the effort on every number of segments, each from what the one before has found, the other half on the most promising from nothing.
   search.result.method = "annealing";
   const uint64_t half = total_evaluations(problem.nodes, effort) / 2;
   std::vector<std::pair<double, uint32_t>> ranking;
-  for (const uint32_t count : counts) search.anneal(spread_segments(problem, count), count, half / counts.size(), 1, &ranking);
+  Segments found;
+  for (const uint32_t count : counts) {
+    const bool warm = !found.empty();
+    found = anneal_segments(problem, warm ? found : spread_segments(problem, count), count, half / counts.size(), 1, warm);
+    ranking.emplace_back(search.consider(found), count);
+  }
   std::sort(ranking.begin(), ranking.end());
   ranking.resize(std::min<size_t>(ranking.size(), effort == Effort::max ? 3 : 2));
   const uint64_t seeds = std::clamp<uint64_t>(half / (ranking.size() * 100 * problem.nodes), 1, 40);
   for (uint64_t seed = 2; seed < 2 + seeds; ++seed)
-    for (const auto& [found, count] : ranking) search.anneal(spread_segments(problem, count), count, half / (ranking.size() * seeds), seed, nullptr);
-  return std::move(search.result);
+    for (const auto& [found_score, count] : ranking)
+      search.consider(anneal_segments(problem, spread_segments(problem, count), count, half / (ranking.size() * seeds), seed));
+  search.result.evaluations = 2 * half;
+  return std::move(search).choose(packing_effort(problem, effort));
 }
 
 }  // namespace rg::compiler

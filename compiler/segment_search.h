@@ -23,7 +23,7 @@ struct SegmentProblem {
     bool hard = true;
   };
   struct Item {
-    uint64_t bytes = 0;
+    uint64_t bytes = 0, alignment = 1;
     std::vector<uint32_t> users;
   };
   uint32_t nodes = 0;  // numbered in a legal order: before < after for every edge
@@ -52,12 +52,17 @@ Segments latest_segments(const SegmentProblem& problem, uint32_t count);
 // In proportion to program order, so that what is written together stays together. Same pre-condition.
 Segments spread_segments(const SegmentProblem& problem, uint32_t count);
 
-// The least peak found from `start` within `evaluations` moves, using at most `count` segments.
-Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed);
+// The least peak found from `start` within `evaluations` moves, using at most `count` segments. `warm`: `start` is good but for boundaries not yet used.
+Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed, bool warm = false);
+// Another order within the peak of `start` and its number of segments, as far away as moves at random lead.
+Segments drift_segments(const SegmentProblem& problem, const Segments& start, uint64_t evaluations, uint64_t seed);
 
 // Joins neighbouring segments that no hard edge connects, as long as no more than `limit` bytes live in them together, and numbers them without gaps.
 // A boundary that only memory needs is one of memory changing hands.
 Segments compact_segments(const SegmentProblem& problem, const Segments& segments, uint64_t limit);
+
+// What a heap for the items takes as far as `effort` finds out, see runtime/packing.h; the peak at least.
+uint64_t packed_bytes(const SegmentProblem& problem, const Segments& segments, uint64_t effort);
 
 struct SegmentResult {
   Segments best;
@@ -65,7 +70,7 @@ struct SegmentResult {
   uint64_t evaluations = 0;           // moves of the annealer
   const char* method = "";            // "program order", "list scheduling" or "annealing"
 };
-// All of the above: program order and the searched ones, the best by score. `fast` tries constructed ones only, `max` anneals much longer.
+// All of the above: program order and the searched ones, the best by score once packed. `fast` tries constructed ones only, `max` anneals much longer.
 SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer);
 
 }  // namespace rg::compiler

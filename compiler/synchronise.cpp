@@ -82,9 +82,11 @@ class Synchroniser {
 
   // Orders `to`, whose first user is in `segment`, after `from`. An acquire stands in front of `acquire`.
   void link(uint32_t cell, const Side& from, const Side& to, uint32_t segment, uint32_t acquire = UINT32_MAX) {
-    const std::vector<uint32_t> before = queues_of(from), after = queues_of(to);
-    if (before.size() > 1 || after.size() > 1 || (!before.empty() && !after.empty() && before != after))
-      return cross(frame_, schedule_, options_, {cell, from, to, acquire}, sync_, needs_);
+    if (schedule_.queues.size() > 1) {
+      const std::vector<uint32_t> before = queues_of(from), after = queues_of(to);
+      if (before.size() > 1 || after.size() > 1 || (!before.empty() && !after.empty() && before != after))
+        return cross(frame_, schedule_, options_, {cell, from, to, acquire}, sync_, needs_);
+    }
     CellBarrier b = connect(frame_, options_, cell, from, to);
     b.is_acquire = acquire != UINT32_MAX;
     add_barrier(sync_, schedule_.slot_before(b.is_acquire ? acquire : segment), std::move(b));

@@ -17,6 +17,7 @@
 // the reads the contents are already visible to.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "compiler/epochs.h"
@@ -41,7 +42,8 @@ struct CellBarrier {
   bool wraps = false;                             // its first scope lies in the frame before
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
   bool dropped = false;                           // nothing needs it
-  std::string reason;                             // "read after write"
+  bool changes_queue = false;                     // half a change of owner
+  std::string_view reason;                        // "read after write", a literal
 };
 
 struct CellBoundary {

@@ -8,10 +8,9 @@
 //     +---+---+---+---+--> time
 //
 // Method, stage by stage, each ending it all at the lower bound:
-//   1. decode "lowest offset first": always place the item whose lowest legal offset is smallest, ties by a static order; eight orders
-//   2. first and best fit by size, life and area
-//   3. swaps of ranks in the best order, for a share of the effort
-//   4. exact search (packing_search.h) at the bound and at capacities between it and the best, for the rest of the effort
+//   1. decode "lowest offset first": always place the item whose lowest legal offset is smallest, ties by a static order; two orders
+//   2. repair by ejection (packing_ejection.h) at the bound and at capacities between it and the best, for three quarters of the effort
+//   3. exact search (packing_search.h) at such capacities for the rest, where effort is large enough to set it up
 // Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
 //
 // Header only, standard library only: compiler and runtime place with the same code.
@@ -19,6 +18,7 @@
 
 #include <functional>
 
+#include "runtime/packing_ejection.h"
 #include "runtime/packing_search.h"
 #include "runtime/packing_values.h"
 
@@ -28,8 +28,6 @@ namespace rg::packing {
 inline constexpr uint64_t kDefaultEffort = 2'000'000;
 // About a millisecond: for placing again while a frame waits, at creation and resize.
 inline constexpr uint64_t kPlacementEffort = 100'000;
-// Swapping ranks for longer hardly helps; the exact search uses the rest better.
-inline constexpr uint64_t kMostSwapEffort = 10'000'000;
 
 namespace detail {
 
@@ -119,6 +117,14 @@ inline Placement pack_crowd(std::span<const Item> items) {
   return best;
 }
 
+inline uint64_t top_of(std::span<const Item> items, const std::vector<uint64_t>& offsets) {
+  uint64_t top = 0;
+  for (size_t i = 0; i < items.size(); ++i) top = std::max(top, offsets[i] + items[i].bytes);
+  return top;
+}
+
+inline constexpr uint64_t kFirstShare = 1000;  // an item: enough for most
+
 class Packer {
  public:
   Packer(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t lower_bound, uint64_t effort)
@@ -131,31 +137,21 @@ class Packer {
     if (items_.empty()) return {{}, 0, bound_};
     const size_t n = items_.size();
     const auto [T, Z, W, A] = measures_of(items_);
-    const Order skyline[] = {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}), sorted(n, {&Z}),
-                             sorted(n, {&W, &A, &T}), sorted(n, {&T, &Z}),     sorted(n, {&W}), sorted(n, {&Z, &W})};
-    for (const Order& order : skyline) {
-      if (done()) return std::move(best_);
-      if (decode_lowest_first(order)) best_order_ = order;
-    }
-    const Order fits[] = {sorted(n, {&Z}), sorted(n, {&W}), sorted(n, {&A}), sorted(n, {&T, &A, &W})};
-    for (const Order& order : fits)
-      for (const bool best_fit : {false, true})
-        if (!done()) decode_fit(order, best_fit);
-    search();
+    decode_lowest_first(sorted(n, {&T, &A, &W}));
+    if (!done()) decode_lowest_first(sorted(n, {&T, &W, &A}));
+    if (!done()) repair();
     return std::move(best_);
   }
 
  private:
   bool done() const { return best_.heap_bytes <= bound_; }
 
-  bool keep(const std::vector<uint64_t>& offsets, uint64_t heap) {
-    if (heap >= best_.heap_bytes) return false;
-    best_.offsets = offsets, best_.heap_bytes = heap;
-    return true;
+  void keep(const std::vector<uint64_t>& offsets, uint64_t heap) {
+    if (heap < best_.heap_bytes) best_.offsets = offsets, best_.heap_bytes = heap;
   }
 
   // Of all unplaced items, the one that can lie lowest; gives up where it cannot beat the best.
-  bool decode_lowest_first(const Order& order) {
+  void decode_lowest_first(const Order& order) {
     const size_t n = items_.size();
     rank_.resize(n), offsets_.assign(n, 0), placed_.assign(n, 0), heap_.clear();
     for (uint32_t i = 0; i < n; ++i) rank_[order[i]] = i;
@@ -170,10 +166,10 @@ class Packer {
       placed_[item] = 1;
       const uint64_t end = offset + items_[item].bytes;
       top = std::max(top, end);
-      if (top >= best_.heap_bytes) return false;
+      if (top >= best_.heap_bytes) return;
       raise_neighbours(item, end);
     }
-    return keep(offsets_, top);
+    keep(offsets_, top);
   }
   struct Candidate {
     uint64_t offset = 0;
@@ -182,9 +178,7 @@ class Packer {
   static bool later(const Candidate& a, const Candidate& b) { return a.offset != b.offset ? a.offset > b.offset : a.rank > b.rank; }
 
   void raise_neighbours(uint32_t item, uint64_t end) {
-    const auto others = neighbours_.of(item);
-    work_ += others.size() + 8;
-    for (const uint32_t other : others) {
+    for (const uint32_t other : neighbours_.of(item)) {
       if (placed_[other] || offsets_[other] >= end) continue;
       offsets_[other] = align_up(end, items_[other].alignment);
       heap_.push_back({offsets_[other], rank_[other]});
@@ -192,62 +186,29 @@ class Packer {
     }
   }
 
-  // In a fixed order, each into the first or the tightest gap between its placed neighbours.
-  void decode_fit(const Order& order, bool best_fit) {
-    offsets_.assign(items_.size(), 0), placed_.assign(items_.size(), 0);
-    uint64_t top = 0;
-    for (const uint32_t item : order) {
-      offsets_[item] = find_gap(item, best_fit);
-      placed_[item] = 1;
-      top = std::max(top, offsets_[item] + items_[item].bytes);
-      if (top >= best_.heap_bytes) return;
-    }
-    keep(offsets_, top);
-  }
-  uint64_t find_gap(uint32_t item, bool best_fit) {
-    taken_.clear();
-    for (const uint32_t other : neighbours_.of(item))
-      if (placed_[other]) taken_.emplace_back(offsets_[other], offsets_[other] + items_[other].bytes);
-    work_ += taken_.size() * 4 + 8;
-    std::sort(taken_.begin(), taken_.end());
-    uint64_t floor = 0, chosen = 0, least = std::numeric_limits<uint64_t>::max();
-    for (const auto& [begin, end] : taken_) {
-      const uint64_t offset = align_up(floor, items_[item].alignment);
-      if (begin >= offset + items_[item].bytes && begin - offset < least) {
-        if (!best_fit) return offset;
-        least = begin - offset, chosen = offset;
+  // At the bound, then between it and the best, again and again with more effort. The first steps are the same whatever the effort: more is never worse.
+  void repair() {
+    Ejection ejection(items_, neighbours_);
+    std::vector<uint64_t> offsets;
+    for (uint64_t work = 0, share = kFirstShare * items_.size();; share *= 2) {
+      for (const uint64_t quarters : {0, 2, 3}) {
+        if (done() || work >= effort_) return;
+        const uint64_t capacity = bound_ + (best_.heap_bytes - bound_ - 1) / 4 * quarters;
+        offsets = best_.offsets;
+        if (ejection.run(offsets, capacity, std::min(share, effort_ - work))) keep(offsets, top_of(items_, offsets));
+        work += ejection.work() + 1;
       }
-      floor = std::max(floor, end);
-    }
-    return least == std::numeric_limits<uint64_t>::max() ? align_up(floor, items_[item].alignment) : chosen;
-  }
-
-  // Swaps two ranks of the best order, keeps what is not worse.
-  void search() {
-    if (best_order_.empty() || items_.size() < 3) return;
-    Order order = best_order_;
-    uint64_t state = 0x9E3779B97F4A7C15;
-    const auto below = [&](uint32_t n) {
-      state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-      return static_cast<uint32_t>((state >> 32) * n >> 32);
-    };
-    while (!done() && work_ < effort_) {
-      const uint32_t a = below(static_cast<uint32_t>(order.size())), b = below(static_cast<uint32_t>(order.size()));
-      std::swap(order[a], order[b]);
-      work_ += order.size();
-      if (!decode_lowest_first(order)) std::swap(order[a], order[b]);
     }
   }
 
   std::span<const Item> items_;
   Neighbours neighbours_;
-  uint64_t bound_, effort_, work_ = 0;
+  uint64_t bound_, effort_;
   Placement best_;
-  Order best_order_, rank_;
+  Order rank_;
   std::vector<uint64_t> offsets_;
   std::vector<char> placed_;
   std::vector<Candidate> heap_;
-  std::vector<std::pair<uint64_t, uint64_t>> taken_;
 };
 
 // Restarted exact search at one capacity: every order plain and with favoured failures, in turn, with growing limits.
@@ -288,14 +249,9 @@ class Fitting {
   uint64_t work_ = 0;
 };
 
-inline uint64_t top_of(std::span<const Item> items, const std::vector<uint64_t>& offsets) {
-  uint64_t top = 0;
-  for (size_t i = 0; i < items.size(); ++i) top = std::max(top, offsets[i] + items[i].bytes);
-  return top;
-}
-
-// Beyond this many items a node of the exact search costs too much.
+// Beyond this many items a node of the exact search costs too much; below this much effort an item, setting it up does.
 inline constexpr size_t kMostSearched = 2000;
+inline constexpr uint64_t kLeastSearchEffort = 4000;
 
 // Looks for a placement below `best`. Less room is not always harder to search, because bounds then cut more: so the bound itself is tried first and
 // the room between in several steps, again and again with more effort.
@@ -327,10 +283,10 @@ inline Placement pack(std::span<const Item> items, uint64_t effort = kDefaultEff
     return pairs.size() < detail::kMostPairs;
   });
   if (!listed) return detail::pack_crowd(items);
-  const bool searched = items.size() <= detail::kMostSearched;
-  const uint64_t swaps = searched ? std::min(effort / 2, kMostSwapEffort) : effort;
-  Placement best = detail::Packer(items, pairs, lower_bound(items), swaps).run();
-  if (searched) detail::search_below(items, best, effort - swaps);
+  const bool searched = items.size() <= detail::kMostSearched && effort >= detail::kLeastSearchEffort * items.size();
+  const uint64_t repairs = searched ? effort / 4 * 3 : effort;
+  Placement best = detail::Packer(items, pairs, lower_bound(items), repairs).run();
+  if (searched) detail::search_below(items, best, effort - repairs);
   return best;
 }
 
@@ -349,9 +305,9 @@ inline Fit fit(std::span<const Item> items, uint64_t capacity, uint64_t effort) 
 }
 
 // Items conflict where `conflicts` says so, whatever their lives, which then serve as hints. Every pair whose lives meet should be among them:
-// the lower bound assumes it.
-inline Placement pack(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t effort = kDefaultEffort) {
-  return detail::Packer(items, conflicts, lower_bound(items), effort).run();
+// the lower bound assumes it. `known_bound`: what conflicts say beyond that; no less than any item.
+inline Placement pack(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t effort = kDefaultEffort, uint64_t known_bound = 0) {
+  return detail::Packer(items, conflicts, std::max(lower_bound(items), known_bound), effort).run();
 }
 
 }  // namespace rg::packing

@@ -27,6 +27,15 @@ struct Placement {
 
 namespace detail {
 
+// xorshift64: small, fast, and the same everywhere.
+struct Random {
+  uint64_t state = 0x9E3779B97F4A7C15;
+  uint32_t below(uint32_t n) {
+    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    return static_cast<uint32_t>((state >> 32) * n >> 32);
+  }
+};
+
 // Items that conflict with each item, as flat lists.
 struct Neighbours {
   std::vector<size_t> first;
@@ -70,14 +79,29 @@ inline uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + a
 struct Load {
   std::vector<uint32_t> times;  // sorted begins and ends
   std::vector<uint64_t> live;   // in [times[i], times[i + 1])
+  std::vector<uint32_t> index;  // by time, where times are so dense that a table is small
   uint64_t peak = 0;
-  size_t at(uint32_t time) const { return static_cast<size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin()); }
+  size_t at(uint32_t time) const {
+    return !index.empty() ? index[time] : static_cast<size_t>(std::lower_bound(times.begin(), times.end(), time) - times.begin());
+  }
 };
-inline Load load_of(std::span<const Item> items) {
-  Load load;
+inline void list_times(std::span<const Item> items, Load& load) {
+  uint32_t last = 0;
+  for (const Item& item : items) last = std::max(last, item.end);
+  if (last < 4 * items.size() + 64) {
+    load.index.assign(last + size_t{1}, 0);
+    for (const Item& item : items) load.index[item.begin] = load.index[item.end] = 1;
+    for (uint32_t time = 0; time <= last; ++time)
+      if (load.index[time]) load.index[time] = static_cast<uint32_t>(load.times.size()), load.times.push_back(time);
+    return;
+  }
   for (const Item& item : items) load.times.insert(load.times.end(), {item.begin, item.end});
   std::sort(load.times.begin(), load.times.end());
   load.times.erase(std::unique(load.times.begin(), load.times.end()), load.times.end());
+}
+inline Load load_of(std::span<const Item> items) {
+  Load load;
+  list_times(items, load);
   std::vector<int64_t> change(load.times.size() + 1);
   for (const Item& item : items)
     change[load.at(item.begin)] += static_cast<int64_t>(item.bytes), change[load.at(item.end)] -= static_cast<int64_t>(item.bytes);

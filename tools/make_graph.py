@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the random benchmark graphs G2(N): N passes and one present pass, the same graph for the same N everywhere.
 
-usage: make_graph.py N [-o FILE.json]
+usage: make_graph.py N [--seed S] [-o FILE.json]
 
 The definition (random numbers by xorshift64, drawn in a fixed order) and the JSON schema are in bench/README.md. A fingerprint over all tables is
 printed to stderr and checked where it is known, so that figures are comparable between machines and programs.
@@ -20,8 +20,8 @@ SIZES = [(1920, 1080), (960, 540), (480, 270)]
 
 
 class Random:
-    def __init__(self):
-        self.state = 0x2545F4914F6CDD1D
+    def __init__(self, seed):
+        self.state = 0x2545F4914F6CDD1D ^ (seed * 0x9E3779B97F4A7C15 & MASK)
 
     def below(self, n):
         s = self.state
@@ -69,8 +69,8 @@ def draw_writes(random, index, compute, resources):
     return writes
 
 
-def make_graph(n):
-    random = Random()
+def make_graph(n, seed):
+    random = Random(seed)
     resources, passes, outputs = [image(0, "backbuffer", "rgba8", SIZES[0], imported=True)], [], []
     for index in range(n):
         kind, last = random.below(4), index == n - 1
@@ -83,7 +83,7 @@ def make_graph(n):
         passes.append({"id": index, "name": f"p{index}", "queue": queue, "accesses": reads + writes})
     final = [access(outputs[-1][0], "sampled_fs"), access(0, "color_write")]
     passes.append({"id": n, "name": "present", "queue": "graphics", "accesses": final})
-    return {"name": f"G2_{n}", "resources": resources, "passes": passes}
+    return {"name": f"G2_{n}" + (f"_{seed}" if seed else ""), "resources": resources, "passes": passes}
 
 
 def words_of(graph):
@@ -110,13 +110,14 @@ def fingerprint(graph):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("passes", type=int, metavar="N")
+    parser.add_argument("--seed", type=int, default=0, metavar="S", help="other graphs of the same kind; default: 0, the published ones")
     parser.add_argument("-o", "--output", metavar="FILE.json", help="default: stdout")
     arguments = parser.parse_args()
     if arguments.passes < 1:
         parser.error("N must be at least 1")
-    graph = make_graph(arguments.passes)
+    graph = make_graph(arguments.passes, arguments.seed)
     graph["fingerprint"] = fingerprint(graph)
-    expected = FINGERPRINTS.get(arguments.passes, graph["fingerprint"])
+    expected = FINGERPRINTS.get(arguments.passes, graph["fingerprint"]) if arguments.seed == 0 else graph["fingerprint"]
     if graph["fingerprint"] != expected:
         sys.exit(f"make_graph.py: fingerprint {graph['fingerprint']}, but G2({arguments.passes}) has {expected}")
     text = json.dumps(graph, indent=None) + "\n"

@@ -83,7 +83,7 @@ int unknown(const compiler::CompileResult& result, const ExplainOptions& options
 
 int explain_name(const ExplainOptions& options) {
   compiler::CompileOptions compile = options.compile;
-  compile.until = compiler::Until::plans;
+  compile.until = compiler::Until::plans, compile.plan.reasons = true;
   const auto result = compile_or_report(options.file_or_code, compile);
   if (!result) return exit_input_wrong;
   std::string text = explain_struct(result->program, result->sources, options.name);

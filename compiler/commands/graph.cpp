@@ -45,7 +45,7 @@ nlohmann::ordered_json page_data(const compiler::CompileResult& result) {
 
 int show_graph(const GraphOptions& options) {
   compiler::CompileOptions compile = options.compile;
-  compile.until = compiler::Until::plans;
+  compile.until = compiler::Until::plans, compile.plan.reasons = true;
   const auto result = compile_or_report(options.file, compile);
   if (!result) return exit_input_wrong;
   if (options.html) {

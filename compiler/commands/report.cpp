@@ -140,7 +140,7 @@ nlohmann::ordered_json json_of(const std::vector<Facts>& all, const compiler::Co
 
 int report(const ReportOptions& options) {
   compiler::CompileOptions compile = options.compile;
-  compile.until = compiler::Until::plans;
+  compile.until = compiler::Until::plans, compile.plan.reasons = true;
   const auto result = compile_or_report(options.file, compile);
   if (!result) return exit_input_wrong;
   std::optional<compiler::CompileResult> unfused;  // for comparison

@@ -107,7 +107,7 @@ TEST(Emit, SamePlanTwice) {
       "pass one : compute { write a as storage }\n"
       "for i in 0..4 { pass two[i] : compute { read a as sampled  write target = b.mip(i) as storage } }\n"
       "pass show : raster { read b as sampled in fragment  color backbuffer covers }\n";
-  const FramePlan first = plan_of(body), second = plan_of(body);
+  const FramePlan first = plan_of(body, {.reasons = true}), second = plan_of(body, {.reasons = true});
   EXPECT_EQ(schedule_text(first.plan), schedule_text(second.plan));
   EXPECT_EQ(first.decisions, second.decisions);
   EXPECT_EQ(first.heap_bytes, second.heap_bytes);
@@ -118,7 +118,8 @@ TEST(Emit, EveryPassResourceAndBarrierIsExplained) {
       "image hdr : rgba16f view\n buffer lost : u32[4]\n"
       "pass light : compute { write hdr as storage }\n"
       "pass dead : compute { write lost as storage }\n"
-      "pass show : raster { read hdr as sampled in fragment  color backbuffer covers }\n");
+      "pass show : raster { read hdr as sampled in fragment  color backbuffer covers }\n",
+      {.reasons = true});
   const auto has = [&](const std::string& subject, const std::string& what, const std::string& reason) {
     for (const Decision& decision : frame.decisions)
       if (decision.subject == subject && decision.what == what && decision.reason.find(reason) != std::string::npos) return true;

@@ -127,6 +127,44 @@ TEST(Packing, ConflictsOverrideLives) {
   EXPECT_NE(placement.offsets[0], placement.offsets[1]);
 }
 
+// Ejection repairs a heap as high as all items together, whatever their conflicts and alignments, or leaves it alone.
+TEST(Packing, EjectionRepairsWhatSticksOut) {
+  size_t repaired = 0;
+  for (uint32_t seed = 0; seed < 60; ++seed) {
+    const std::vector<Item> items = random_items(seed, 20 + seed * 3, 40, 1000, {1, 4, 64});
+    std::vector<Conflict> pairs;
+    detail::for_each_meeting_pair(items, [&](uint32_t a, uint32_t b) { return pairs.emplace_back(a, b), true; });
+    Placement placement;
+    for (const Item& item : items) {
+      placement.offsets.push_back(detail::align_up(placement.heap_bytes, item.alignment));
+      placement.heap_bytes = placement.offsets.back() + item.bytes;
+    }
+    const detail::Neighbours neighbours = detail::neighbours(items.size(), pairs);
+    const std::vector<uint64_t> before = placement.offsets;
+    const uint64_t capacity = greatest_live_sum(items) * 105 / 100;
+    const bool fits = detail::Ejection(items, neighbours).run(placement.offsets, capacity, 2'000'000);
+    if (fits) placement.heap_bytes = capacity;
+    ASSERT_EQ(find_fault(items, placement), std::nullopt) << "seed " << seed;
+    if (!fits) {
+      ASSERT_EQ(placement.offsets, before) << "seed " << seed;
+    }
+    repaired += fits;
+  }
+  EXPECT_GE(repaired, 55u);
+}
+
+TEST(Packing, MoreEffortIsNeverWorse) {
+  for (uint32_t seed = 0; seed < 20; ++seed) {
+    const std::vector<Item> items = random_items(seed, 150, 40, 1000, {1});
+    uint64_t last = UINT64_MAX;
+    for (const uint64_t effort : {0, 30'000, 100'000, 300'000, 599'000}) {
+      const uint64_t heap = pack(items, effort).heap_bytes;
+      EXPECT_LE(heap, last) << "seed " << seed << ", effort " << effort;
+      last = heap;
+    }
+  }
+}
+
 // Thousands of items that live together must not cost the square of their number.
 TEST(Packing, ManyItemsAtOnceAreStacked) {
   std::vector<Item> items;

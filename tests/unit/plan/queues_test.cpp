@@ -80,6 +80,29 @@ TEST(Queues, OverlapIsPlannedWhereItPays) {
   EXPECT_EQ(plan_of(kOverlap, one).plan.queues.size(), 1u);
 }
 
+// Four passes without a barrier between them: the one that the compute queue waits for comes last as written, and has to be first.
+constexpr char kLate[] =
+    "image a : d32f view\n image b : d32f view\n image c : d32f view\n image source : d32f view\n image found : r8 view\n"
+    "pass draw_a : raster { depth a clear 0.0  draw host {} }\n"
+    "pass draw_b : raster { depth b clear 0.0  draw host {} }\n"
+    "pass draw_c : raster { depth c clear 0.0  draw host {} }\n"
+    "pass draw_source : raster { depth source clear 0.0  draw host {} }\n"
+    "pass find : compute queue compute may { read source as sampled  write found as storage }\n"
+    "pass light : raster { read a as sampled in fragment  read b as sampled in fragment  read c as sampled in fragment\n"
+    "  read found as sampled in fragment  color backbuffer covers }\n";
+
+TEST(Queues, WhatAQueueWaitsForIsHurried) {
+  PlanOptions options = {.queues = kTwo.queues,
+                         .measured_us = {{"draw_a", 100}, {"draw_b", 100}, {"draw_c", 100}, {"draw_source", 50}, {"find", 250}, {"light", 100}}};
+  const FramePlan frame = plan_of(kLate, options);
+  EXPECT_EQ(frame.overlap.moved, 1u);
+  EXPECT_EQ(frame.overlap.bound, 450'000);
+  EXPECT_LE(frame.overlap.end, 460'000);
+  EXPECT_EQ(frame.plan.passes[frame.plan.steps[1].index].name, "draw_source");
+  options.reorder = false;
+  EXPECT_EQ(plan_of(kLate, options).overlap.moved, 0u);  // as written it would be too late
+}
+
 TEST(Queues, BatchesAreListedInAnOrderThatRuns) {
   const PlanData plan = plan_of(kOverlap, kTwo).plan;
   std::vector<uint64_t> signalled(plan.queues.size());

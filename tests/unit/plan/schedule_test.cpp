@@ -2,6 +2,7 @@
 #include <random>
 
 #include "compiler/segment_search.h"
+#include "runtime/packing.h"
 #include "tests/unit/plan/planned.h"
 
 namespace rg::compiler {
@@ -15,7 +16,30 @@ SegmentProblem random_problem(uint32_t seed) {
   for (uint32_t node = 1; node < problem.nodes; ++node)
     for (uint32_t k = below(3); k > 0; --k) problem.edges.push_back({node - 1 - below(std::min(node, 8u)), node, below(5) != 0});
   for (uint32_t node = 0; node + 1 < problem.nodes; ++node)
-    problem.items.push_back({1 + below(100), {node, node + 1 + below(std::min(problem.nodes - node - 1, 6u))}});
+    problem.items.push_back({1 + below(100), 1, {node, node + 1 + below(std::min(problem.nodes - node - 1, 6u))}});
+  return problem;
+}
+
+// The random frames of bench/README.md in small: a pass reads up to four of the images of the sixteen passes before it and writes one or two.
+SegmentProblem random_frame(uint32_t seed, uint32_t passes) {
+  std::mt19937 random(seed);
+  const auto below = [&](uint32_t n) { return static_cast<uint32_t>(random() % n); };
+  SegmentProblem problem;
+  problem.nodes = passes;
+  std::vector<std::vector<uint32_t>> outputs(passes);
+  for (uint32_t pass = 0; pass < passes; ++pass) {
+    for (uint32_t k = pass > 0 ? 1 + below(4) : 0; k > 0; --k) {
+      const uint32_t from = pass - 1 - std::min(pass - 1, std::min(below(16), below(16)));
+      problem.edges.push_back({from, pass});
+      SegmentProblem::Item& read = problem.items[outputs[from][below(static_cast<uint32_t>(outputs[from].size()))]];
+      if (read.users.back() != pass) read.users.push_back(pass);
+    }
+    const uint64_t texels = std::vector<uint64_t>{1920 * 1080, 960 * 540, 480 * 270}[below(3)];
+    for (uint32_t k = 1 + below(2); k > 0; --k) {
+      outputs[pass].push_back(static_cast<uint32_t>(problem.items.size()));
+      problem.items.push_back({packing::detail::align_up(texels * (below(4) == 0 ? 8 : 4), 65536), 65536, {pass}});
+    }
+  }
   return problem;
 }
 
@@ -36,6 +60,9 @@ TEST(SegmentSearch, EveryCandidateIsLegal) {
     EXPECT_TRUE(is_legal(problem, spread_segments(problem, count))) << seed;
     EXPECT_TRUE(is_legal(problem, anneal_segments(problem, spread_segments(problem, count), count, 2000, seed + 1))) << seed;
     EXPECT_TRUE(is_legal(problem, compact_segments(problem, latest_segments(problem, count + 5), UINT64_MAX))) << seed;
+    const Segments drifted = drift_segments(problem, spread_segments(problem, count), 2000, seed + 1);
+    EXPECT_TRUE(is_legal(problem, drifted)) << seed;
+    EXPECT_LE(cost_of(problem, drifted).peak, cost_of(problem, spread_segments(problem, count)).peak) << seed;
   }
 }
 
@@ -44,9 +71,28 @@ TEST(SegmentSearch, IsNeverWorseThanProgramOrder) {
     const SegmentProblem problem = random_problem(seed);
     const Segments found = search_segments(problem, Effort::normal, Prefer::balance).best;
     EXPECT_TRUE(is_legal(problem, found)) << seed;
-    EXPECT_LE(score(cost_of(problem, found), Prefer::balance), score(cost_of(problem, program_order_segments(problem)), Prefer::balance)) << seed;
+    const auto packed_score = [&](const Segments& order) {
+      return score({cost_of(problem, order).segments, packed_bytes(problem, order, 3000 * problem.items.size())}, Prefer::balance);
+    };
+    EXPECT_LE(packed_score(found), packed_score(program_order_segments(problem))) << seed;
     EXPECT_EQ(found, search_segments(problem, Effort::normal, Prefer::balance).best) << "not deterministic, seed " << seed;
   }
+}
+
+// Chosen once packed: nearly every chosen order packs to its peak, and takes no more memory than program order.
+TEST(SegmentSearch, ChosenOrdersPack) {
+  size_t packed = 0, frames = 0;
+  for (uint32_t seed = 0; seed < 24; ++seed, ++frames) {
+    const SegmentProblem problem = random_frame(seed, 50 + seed * 5);
+    const Segments found = search_segments(problem, Effort::normal, Prefer::balance).best, program = program_order_segments(problem);
+    const SegmentCost cost = cost_of(problem, found), before = cost_of(problem, program);
+    const uint64_t heap = packed_bytes(problem, found, 4000 * problem.items.size());
+    EXPECT_TRUE(is_legal(problem, found)) << seed;
+    EXPECT_LE(heap, before.peak) << seed;
+    EXPECT_LE(score({cost.segments, heap}, Prefer::balance), score(before, Prefer::balance)) << seed;
+    packed += heap == cost.peak;
+  }
+  EXPECT_GE(packed * 100, frames * 90);
 }
 
 TEST(SegmentSearch, CompactingJoinsOnlyWhatNothingSeparates) {
