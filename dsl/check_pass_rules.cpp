@@ -105,6 +105,13 @@ bool check_role(const Rules& rules, const Access& access) {
         .note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
     return false;
   }
+  if (rules.pass.kind == PassKind::host) {
+    const bool reads = access.mode == Mode::read;
+    rules.checker.report(DiagnosticKind::HostPassAccess, access.span,
+                         {rules.pass.name, reads ? "read" : "write", resource.name,
+                          reads ? "a `readback` buffer is read after the frame" : "`update` in a transfer pass takes the engine's bytes"});
+    return false;
+  }
   if (of_pass(access.role, rules.pass.kind)) return true;
   rules.checker.report(DiagnosticKind::RoleOfPass, access.span, {word_of(rules.pass.kind), resource.name, word_of(access.role)});
   return false;

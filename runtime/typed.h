@@ -21,6 +21,14 @@ struct Required {
   T value;
 };
 
+// A member that this plan does without: it may be given, and is not looked at.
+template <class T>
+struct Unused {
+  Unused() = default;
+  // Given by name.
+  constexpr Unused(const T&) {}
+};
+
 // The size of an extent of one axis, in its own unit: texels, froxels, elements.
 struct Size1 {
   uint32_t width = 1;

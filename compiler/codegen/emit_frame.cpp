@@ -1,4 +1,6 @@
 // The typed API of one graph as C++ text.
+#include <algorithm>
+
 #include "compiler/codegen/frame_api.h"
 #include "compiler/plan_figures.h"
 
@@ -257,10 +259,12 @@ void create(CppWriter& out, const FrameApi& api) {
 void import_rows(CppWriter& out, const FrameApi& api) {
   out.line("  const rg::Import import_rows[] = {");
   for (const ApiMember& member : api.imports) {
-    const bool image = member.type.find("Image") != std::string::npos;
-    out.line(std::string("      {.") + (image ? "image" : "buffer") + " = imports." + member.name + ".value},");
+    const char* kind = member.type.find("Image") != std::string::npos ? "image" : "buffer";
+    out.line(member.type.starts_with(kUnusedImport) ? "      {},  // " + member.name : std::string("      {.") + kind + " = imports." + member.name + ".value},");
   }
   out.line("  };");
+  const auto unused = [](const ApiMember& member) { return member.type.starts_with(kUnusedImport); };
+  if (std::all_of(api.imports.begin(), api.imports.end(), unused)) out.line("  (void)imports;");
   out.line("  inputs.imports = import_rows;");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compiler/slots.h"
 #include "dsl/check_macro.h"
 
 namespace rg::compiler {
@@ -33,16 +34,18 @@ struct Source {
   }
 };
 
+// All that is declared, whatever this plan uses of it: a pass that comes or goes changes no code of the engine's.
 std::vector<ApiMember> collect_imports(const Source& s) {
+  std::vector<bool> used(s.graph.resources.size());
+  for (const uint32_t r : s.plan.program_resource) used[r] = true;
+  const std::vector<Index> slots = import_slots(s.graph);
   std::vector<ApiMember> imports;
-  for (size_t r = 0; r < s.plan.resources.size(); ++r) {
-    const Resource& resource = s.plan.resources[r];
-    if (resource.import_slot == kNone) continue;
-    const char* type = resource.kind == ResourceKind::image ? "rg::ImportedImage" : "rg::ImportedBuffer";
-    const std::string place = s.where(s.graph.resources.rows[s.plan.program_resource[r]].span);
-    put(imports, resource.import_slot, {std::string(resource.name), std::string("rg::Required<") + type + ">", place});
+  for (size_t r = 0; r < slots.size(); ++r) {
+    if (slots[r] == kNone) continue;
+    const dsl::Resource& resource = s.graph.resources.rows[r];
+    const char* type = resource.kind == dsl::ResourceKind::image ? "rg::ImportedImage" : "rg::ImportedBuffer";
+    put(imports, slots[r], {resource.name, std::string(used[r] ? "rg::Required<" : kUnusedImport) + type + ">", s.where(resource.span)});
   }
-  for (const ApiMember& import : imports) RG_CHECK(!import.name.empty(), "an import slot belongs to no resource");
   name_members(imports);
   return imports;
 }

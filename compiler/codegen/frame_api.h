@@ -10,6 +10,8 @@
 
 namespace rg::compiler {
 
+inline constexpr std::string_view kUnusedImport = "rg::Unused<";  // begins the type of an import that the plan does without
+
 struct ApiMember {  // of Imports, Params, Updates, Conditions, EngineSets: by slot
   std::string name, type, comment;
 };

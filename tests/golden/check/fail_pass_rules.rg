@@ -26,4 +26,7 @@ graph g(surface s: rgba8 4x4) {
   pass before : compute { write m.mip(0) as storage }
   pass named : compute { read m.mip(0) as sampled  write m.mip(1) as storage }  //~ error[RG0358]: a second access of the pass is called `m`; rename one: `read other = ...`
 //~^ note[RG0357]: the other access is here
+  buffer f : u32[4] readback
+  pass told : host { write e }  //~ error[RG0300]: pass `told` runs its callback while the frame is recorded, before the GPU has done any of it, and cannot write `e`; `update` in a transfer pass takes the engine's bytes
+  pass seen : host { read f }  //~ error[RG0300]: pass `seen` runs its callback while the frame is recorded, before the GPU has done any of it, and cannot read `f`; a `readback` buffer is read after the frame
 }

@@ -33,5 +33,4 @@ graph g(engine: In, surface s: rgba8 16x16 after present) {
   pass x : transfer { resolve many -> one }
   pass y : compute { shader "y.comp" group 64 1 1  read c as storage  update d as storage disjoint  dispatch indirect count }
   pass z : raster { fullscreen "z.frag"  read one as sampled  read a as sampled  color s }
-  pass h : host { read d as host }
 }

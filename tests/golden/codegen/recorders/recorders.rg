@@ -15,6 +15,7 @@ struct Light { position: vec3  color: vec3  suns: Sun[2] }
 interface Scene {
   lights:   buffer Light[] ready as storage in fragment
   vertices: buffer Vertex[] ready as vertex
+  spare:    buffer u32[] ready as storage in compute  // which no pass uses
 }
 sampler smooth { filter linear  address clamp }
 state   solid { cull back  depth test greater_equal }

@@ -68,14 +68,15 @@ struct Extents {
 struct Imports {
   rg::Required<rg::ImportedBuffer> scene_lights;  // recorders.rg:16
   rg::Required<rg::ImportedBuffer> scene_vertices;  // recorders.rg:17
-  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:25
+  rg::Unused<rg::ImportedBuffer> scene_spare;  // recorders.rg:18
+  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:26
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View view_constants = {};  // recorders.rg:25
-  Blur bloom_down_1_blur = {};  // recorders.rg:74
-  Blur bloom_down_2_blur = {};  // recorders.rg:74
+  View view_constants = {};  // recorders.rg:26
+  Blur bloom_down_1_blur = {};  // recorders.rg:75
+  Blur bloom_down_2_blur = {};  // recorders.rg:75
 };
 
 // Descriptor sets the engine owns.
@@ -85,7 +86,7 @@ struct EngineSets {
 
 // Bytes that update statements copy.
 struct Updates {
-  std::span<const std::byte> table = {};  // recorders.rg:35
+  std::span<const std::byte> table = {};  // recorders.rg:36
 };
 
 // Latched when the frame is recorded.
@@ -95,10 +96,10 @@ struct Conditions {
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct MeshesPass : rg::RasterRecording {  // recorders.rg:38
+struct MeshesPass : rg::RasterRecording {  // recorders.rg:39
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:60
+struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:61
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -202,7 +203,7 @@ class Frame : public rg::TypedFrame {
     return submit(imports, params, engine_sets, updates, conditions, callbacks, &recorder);
   }
 
-  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:33
+  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:34
   rg::Result<std::span<const uint32_t>> counted();
 
  private:
