@@ -164,10 +164,12 @@ Rows share_rows() {
   const Steps steps = time_steps(*uber);
   const double hundredth = steps.total() / 100;
   Rows rows = {{"variants/uber/total", steps.total(), "ms", {}, "all steps of all variants, one core"}};
-  const std::pair<const char*, double> shares[] = {{"parse_once", steps.parse},          {"optimise_once", steps.optimise}, {"specialise", steps.specialise},
-                                                   {"deduplicate", steps.deduplicate}, {"finish", steps.finish},          {"validate", steps.validate}};
+  const std::pair<const char*, double> shares[] = {{"parse_once", steps.parse},      {"optimise_once", steps.optimise},
+                                                   {"specialise", steps.specialise}, {"deduplicate", steps.deduplicate},
+                                                   {"finish", steps.finish},         {"validate", steps.validate}};
   for (const auto& [name, ms] : shares) rows.push_back({std::string("variants/uber/share/") + name, ms / hundredth, "%", {}, ""});
-  rows.push_back({"variants/uber/duplicates", 100.0 * static_cast<double>(kVariants - steps.distinct) / kVariants, "%", {}, "variants equal to another"});
+  rows.push_back(
+      {"variants/uber/duplicates", 100.0 * static_cast<double>(kVariants - steps.distinct) / kVariants, "%", {}, "variants equal to another"});
   return rows;
 }
 

@@ -1,5 +1,5 @@
-// One number for how a C++ mirror has to look: equal where fields have the same names, types and places, or values the same names in the same order. A plan
-// that is loaded into a running program is refused where the program's mirrors would no longer fit.
+// One number for how a C++ mirror has to look: equal where fields have the same names, types and places, or values the same names in the same order.
+// A plan that is loaded into a running program is refused where the program's mirrors would no longer fit.
 #pragma once
 
 #include <cstdint>

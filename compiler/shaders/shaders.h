@@ -75,7 +75,7 @@ struct ShaderOptions {
   const ShaderCache* cache = nullptr;  // see cache.h; null: none
   unsigned workers = 0;                // 0: one a core
   std::function<void(std::string_view)> progress;
-  bool draft = false;                  // the shaders are measured and thrown away: nobody validates them
+  bool draft = false;  // the shaders are measured and thrown away: nobody validates them
 };
 
 // The variants of `graph`, each once, in an order that only the sources decide.

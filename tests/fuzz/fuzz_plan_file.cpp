@@ -138,6 +138,7 @@ void run(const rg::Plan& plan, uint8_t variety) {
   options.frames_in_flight = 1 + variety % 4;
   options.single_queue = variety % 3 == 1;
   options.poison = variety % 5 == 1;
+  options.timestamps = variety % 2 == 1;  // without them a frame is recorded from packed rows
   const std::vector<VkDescriptorSetLayout> layouts(plan.engine_sets.size(), reinterpret_cast<VkDescriptorSetLayout>(uintptr_t{1}));
   options.engine_set_layouts = layouts;
   auto graph = rg::GraphInstance::create(device, plan, options);

@@ -13,7 +13,8 @@ using test::TestPlan;
 void draw(void*, Recording& recording) { recording.vk.CmdDraw(recording.commands, 3, 1, 0, static_cast<uint32_t>(recording.pass.name.size())); }
 constexpr RecordFunction kCallbacks[] = {draw, draw, draw, draw};
 
-// `count` passes in one rendering of `scene`, those of `guarded` under condition 0, each with a label of its own and some in modules; then one without attachments.
+// `count` passes in one rendering of `scene`, those of `guarded` under condition 0, each with a label of its own and some in modules; then one
+// without attachments.
 TestPlan shared(uint32_t count, uint32_t guarded) {
   TestPlan p;
   p.extents.push_back({"view", 2, {8, 8, 1}, {64, 64, 1}});
@@ -41,8 +42,12 @@ struct Shape {
   TestPlan plan;
 };
 std::vector<Shape> shapes() {
-  std::vector<Shape> all = {{"clear and copy", test::clear_and_copy().plan}, {"counter", test::counter().plan}, {"tint", test::tint().plan},
-                            {"relay", test::relay().plan},                   {"mips", test::mips().plan},       {"aliased", test::aliased().plan}};
+  std::vector<Shape> all = {{"clear and copy", test::clear_and_copy().plan},
+                            {"counter", test::counter().plan},
+                            {"tint", test::tint().plan},
+                            {"relay", test::relay().plan},
+                            {"mips", test::mips().plan},
+                            {"aliased", test::aliased().plan}};
   for (const uint32_t guarded : {0u, 2u, 4u, 6u, 8u}) {
     all.push_back({"shared, guarded " + std::to_string(guarded), shared(3, guarded)});
     all.push_back({"alone, guarded " + std::to_string(guarded), shared(1, guarded & 8)});
