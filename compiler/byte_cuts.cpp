@@ -12,9 +12,8 @@ struct Point {
   ByteCut cut;
 };
 
-bool is_behind(dsl::Formulas& formulas, const dsl::Polynomial& a, const dsl::Polynomial& b) {
-  return formulas.never_negative(a - b - dsl::Polynomial(1));
-}
+// Or at the same place: pieces may be empty at some extents.
+bool is_behind(dsl::Formulas& formulas, const dsl::Polynomial& a, const dsl::Polynomial& b) { return formulas.never_negative(a - b); }
 
 // False where the point may lie on either side of another.
 bool insert(dsl::Formulas& formulas, std::vector<Point>& points, const Point& point) {

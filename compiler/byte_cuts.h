@@ -7,7 +7,7 @@
 
 namespace rg::compiler {
 
-// Fills Grid::cuts, places and bytes. False where the order is not proved, or a piece may be empty: then the buffer stays whole.
+// Fills Grid::cuts, places and bytes. False where the order is not proved: then the buffer stays whole.
 bool cut_bytes(dsl::Formulas& formulas, const dsl::Resource& buffer, const std::vector<dsl::Range>& ranges, Grid& grid);
 
 // Of a buffer from one cut to another; numbers of Grid::bytes.

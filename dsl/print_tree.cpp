@@ -18,7 +18,7 @@ struct Printer {
 std::string text(const Name& name) { return name.empty() ? "?" : std::string(name.text); }
 
 std::string text(const ast::Expr& expr) {
-  constexpr const char* kOperators[] = {"error", "", "", "", "", "", "index", "call", "list", "-", "+", "-", "*", "/"};
+  constexpr const char* kOperators[] = {"error", "", "", "", "", "", "index", "call", "list", "-", "+", "-", "*", "/", "%"};
   if (expr.kind == ExprKind::error) return "?";
   const bool leaf = expr.kind == ExprKind::integer || expr.kind == ExprKind::real || expr.kind == ExprKind::dimensions || expr.kind == ExprKind::name;
   if (leaf) return std::string(expr.text);

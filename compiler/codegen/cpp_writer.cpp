@@ -109,12 +109,25 @@ std::string Row::inline_text() const {
   return text + "}";
 }
 
+// What stays on one line: a field, or, where that is too long for any, a field of what is nested in it.
+std::vector<std::string> Row::pieces(size_t width) const {
+  std::vector<std::string> all;
+  for (size_t i = 0; i < fields_.size(); ++i) {
+    std::string rest = fields_[i] + (i + 1 == fields_.size() ? "}," : ", ");
+    const bool quotes = rest.find('"') != std::string::npos;
+    for (size_t cut = quotes ? std::string::npos : rest.find(", ."); rest.size() > width && cut != std::string::npos; cut = rest.find(", .")) {
+      all.push_back(rest.substr(0, cut + 2));
+      rest.erase(0, cut + 2);
+    }
+    all.push_back(std::move(rest));
+  }
+  return all;
+}
+
 std::string Row::lines(size_t indent) const {
   const std::string margin(indent, ' ');
   std::string text, line = margin + "{";
-  for (size_t i = 0; i < fields_.size(); ++i) {
-    const bool last = i + 1 == fields_.size();
-    const std::string piece = fields_[i] + (last ? "}," : ", ");
+  for (const std::string& piece : pieces(kColumns - indent)) {
     if (line.size() + piece.size() > kColumns + 1 && line.size() > indent + 1) {
       while (line.back() == ' ') line.pop_back();
       text += line + "\n";

@@ -32,6 +32,8 @@ class Row {
   std::string lines(size_t indent) const;
 
  private:
+  std::vector<std::string> pieces(size_t width) const;
+
   std::vector<std::string> fields_;
   std::string comment_;
 };

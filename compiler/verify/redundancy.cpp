@@ -37,11 +37,25 @@ void report_atom(const Model& model, const Scope& scope, const std::string& text
 // The last signal of a queue tells the host, and the frames of other plans, that all is done.
 bool retires_frame(const Model& model, const Scope& scope) { return scope.kind == ScopeKind::signal && scope.value == model.signals_on[scope.queue]; }
 
+bool is_constant(const dsl::Program& program, dsl::ExprId id) { return !id.valid() || program.exprs[id].op == dsl::ExprOp::constant; }
+
+// Buffers of which passes touch ranges that depend on extents: what these extents do not need, others may.
+std::vector<bool> cut_by_extents(const Model& model) {
+  std::vector<bool> found(model.resources.size());
+  for (const dsl::Pass& pass : model.input->graph.passes)
+    for (const dsl::Access& access : pass.accesses)
+      if (!is_constant(model.input->program, access.range.offset) || !is_constant(model.input->program, access.range.size))
+        found[access.resource.value] = true;
+  return found;
+}
+
 }  // namespace
 
 void check_redundancy(const Model& model, const std::vector<bool>& required, Report& report) {
+  const std::vector<bool> varies = cut_by_extents(model);
   for (uint32_t id = 0; id < model.scopes.size(); ++id) {
     const Scope& scope = model.scopes[id];
+    if (scope.kind == ScopeKind::buffer && varies[scope.resource]) continue;
     if (scope.tag != BarrierTag::hazard || retires_frame(model, scope)) continue;
     if (!required[atom_of(id, AtomField::whole)]) {
       report_atom(model, scope, " can be removed", report);

@@ -1,7 +1,7 @@
 module everything
 import "one.rg"
 target vulkan 1.3
-const A = 1 + 2 * -3 / (4 - 5)
+const A = 1 + 2 * -3 / (4 - 5) % 6
 extent view = runtime(1920, 1080) max(3840, 2160)
 struct View { m: mat4  list: vec4[4] }
 interface Scene { lights: buffer Light[] ready as storage in compute, fragment after storage  maps: image rgba8 16x16 layers 2 written as sampled }

@@ -19,7 +19,6 @@ interface Scene {
 }
 sampler smooth { filter linear  address clamp }
 state   solid { cull back  depth test greater_equal }
-state   marked { stencil pass replace  stencil reference 1  stencil_back pass increment_wrap }
 set     materials 0 { uniform sampler2D albedo_map; }
 condition cached
 
@@ -28,9 +27,7 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
   image  depth   : d32f view
   image  color   : rgba16f view history 1 init clear 0
   image  bloom   : rgba16f view / 2 mips 3
-  image  mask    : d32f_s8 view layers 2
   buffer table   : u32[64]
-  buffer indices : r16ui[64] persistent init clear 0
   buffer counted : u32[4] readback
 
   pass fill_table : transfer {
@@ -47,16 +44,6 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
     color  color clear 0
     depth  depth clear 0.0
     draw   host { per_draw Draw  vertex Vertex }
-  }
-  pass marks : raster {
-    multiview
-    shader "marks.vert" "marks.frag"
-    state  marked
-    read   scene.vertices as vertex
-    read   indices.bytes(32, 64) as index
-    stencil mask clear 0
-    draw   indexed 6 instances 2 first 3 offset 1 { vertex Vertex }
-    keep
   }
   pass own_pipelines : raster {
     color  color

@@ -68,15 +68,14 @@ struct Extents {
 struct Imports {
   rg::Required<rg::ImportedBuffer> scene_lights;  // recorders.rg:16
   rg::Required<rg::ImportedBuffer> scene_vertices;  // recorders.rg:17
-  rg::Unused<rg::ImportedBuffer> scene_spare;  // recorders.rg:18
-  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:26
+  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:24
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View view_constants = {};  // recorders.rg:26
-  Blur bloom_down_1_blur = {};  // recorders.rg:75
-  Blur bloom_down_2_blur = {};  // recorders.rg:75
+  View view_constants = {};  // recorders.rg:24
+  Blur bloom_down_1_blur = {};  // recorders.rg:61
+  Blur bloom_down_2_blur = {};  // recorders.rg:61
 };
 
 // Descriptor sets the engine owns.
@@ -86,7 +85,7 @@ struct EngineSets {
 
 // Bytes that update statements copy.
 struct Updates {
-  std::span<const std::byte> table = {};  // recorders.rg:36
+  std::span<const std::byte> table = {};  // recorders.rg:32
 };
 
 // Latched when the frame is recorded.
@@ -96,10 +95,10 @@ struct Conditions {
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct MeshesPass : rg::RasterRecording {  // recorders.rg:39
+struct MeshesPass : rg::RasterRecording {  // recorders.rg:35
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:61
+struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:47
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -114,25 +113,23 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 10, .shaders = 9, .pipelines = 7, .barrier_groups = 8, .image_barriers = 12, .buffer_barriers = 4, .batches = 1, .heap_bytes = 65792,
-     .unaliased_bytes = 196864, .lower_bound_bytes = 65792};
+    {.passes = 9, .shaders = 7, .pipelines = 6, .barrier_groups = 8, .image_barriers = 11, .buffer_barriers = 4, .batches = 1, .heap_bytes = 65792,
+     .unaliased_bytes = 131328, .lower_bound_bytes = 65792};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
-    {.group = 1, .barriers = 2},  // fill_table
-    {.position = 1, .group = 1},  // marks
-    {.position = 2, .group = 2, .barriers = 3},  // meshes
-    {.position = 3, .group = 2},  // own_pipelines
-    {.position = 4, .group = 2},  // count_clear
-    {.position = 5, .group = 3, .barriers = 2},  // count
-    {.position = 6, .group = 4, .barriers = 3},  // bloom_first
-    {.position = 7, .group = 5, .barriers = 1},  // bloom_down_1
-    {.position = 8, .group = 6, .barriers = 1},  // bloom_down_2
-    {.position = 9, .group = 7, .barriers = 2},  // show
+    {.group = 1, .barriers = 1},  // fill_table
+    {.position = 1, .group = 2, .barriers = 3},  // meshes
+    {.position = 2, .group = 2},  // own_pipelines
+    {.position = 3, .group = 2},  // count_clear
+    {.position = 4, .group = 3, .barriers = 2},  // count
+    {.position = 5, .group = 4, .barriers = 3},  // bloom_first
+    {.position = 6, .group = 5, .barriers = 1},  // bloom_down_1
+    {.position = 7, .group = 6, .barriers = 1},  // bloom_down_2
+    {.position = 8, .group = 7, .barriers = 2},  // show
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {},  // fill_table
-    {.instructions = 19, .alu = 2, .live_scalars = 4},  // marks
     {.instructions = 47, .alu = 10, .samples = 1, .loads = 5, .branches = 1, .live_scalars = 22},  // meshes
     {},  // own_pipelines
     {},  // count_clear
@@ -143,29 +140,26 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 20, .alu = 7, .samples = 3, .live_scalars = 10},  // show
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 2, .last = 2},  // scene_lights
-    {.bytes = 256, .first = 1, .last = 2},  // scene_vertices
-    {.bytes = 65536, .first = 9, .last = 9},  // backbuffer
-    {.bytes = 65536, .transient = true, .first = 2, .last = 5},  // depth
-    {.bytes = 131072, .first = 2, .last = 9},  // color
-    {.bytes = 65536, .transient = true, .first = 6, .last = 9},  // bloom
-    {.bytes = 65536, .transient = true, .first = 1, .last = 1},  // mask
-    {.bytes = 256, .offset = 65536, .transient = true, .last = 2},  // table
-    {.bytes = 256, .first = 1, .last = 1},  // indices
-    {.bytes = 256, .first = 4, .last = 5},  // counted
+    {.bytes = 256, .first = 1, .last = 1},  // scene_lights
+    {.bytes = 256, .first = 1, .last = 1},  // scene_vertices
+    {.bytes = 65536, .first = 8, .last = 8},  // backbuffer
+    {.bytes = 65536, .transient = true, .first = 1, .last = 4},  // depth
+    {.bytes = 131072, .first = 1, .last = 8},  // color
+    {.bytes = 65536, .transient = true, .first = 5, .last = 8},  // bloom
+    {.bytes = 256, .offset = 65536, .transient = true, .last = 1},  // table
+    {.bytes = 256, .first = 3, .last = 4},  // counted
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index fill_table = 0;
-inline constexpr rg::Index marks = 1;
-inline constexpr rg::Index meshes = 2;
-inline constexpr rg::Index own_pipelines = 3;
-inline constexpr rg::Index count_clear = 4;
-inline constexpr rg::Index count = 5;
-inline constexpr rg::Index bloom_first = 6;
-inline constexpr rg::Index bloom_down_1 = 7;
-inline constexpr rg::Index bloom_down_2 = 8;
-inline constexpr rg::Index show = 9;
+inline constexpr rg::Index meshes = 1;
+inline constexpr rg::Index own_pipelines = 2;
+inline constexpr rg::Index count_clear = 3;
+inline constexpr rg::Index count = 4;
+inline constexpr rg::Index bloom_first = 5;
+inline constexpr rg::Index bloom_down_1 = 6;
+inline constexpr rg::Index bloom_down_2 = 7;
+inline constexpr rg::Index show = 8;
 }
 
 // Indices of Plan::resources.
@@ -176,10 +170,8 @@ inline constexpr rg::Index backbuffer = 2;
 inline constexpr rg::Index depth = 3;
 inline constexpr rg::Index color = 4;
 inline constexpr rg::Index bloom = 5;
-inline constexpr rg::Index mask = 6;
-inline constexpr rg::Index table = 7;
-inline constexpr rg::Index indices = 8;
-inline constexpr rg::Index counted = 9;
+inline constexpr rg::Index table = 6;
+inline constexpr rg::Index counted = 7;
 }
 
 class Frame : public rg::TypedFrame {
@@ -203,7 +195,7 @@ class Frame : public rg::TypedFrame {
     return submit(imports, params, engine_sets, updates, conditions, callbacks, &recorder);
   }
 
-  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:34
+  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:30
   rg::Result<std::span<const uint32_t>> counted();
 
  private:

@@ -4,8 +4,6 @@
 #include <array>
 #include <string_view>
 
-#include "shaders/marks.vert.spv.h"
-#include "shaders/marks.frag.spv.h"
 #include "shaders/meshes.vert.spv.h"
 #include "shaders/meshes.frag.spv.h"
 #include "shaders/count.comp.spv.h"
@@ -28,32 +26,27 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::floor_div, .a = 1, .b = 2},  // 4
     {.op = ExprOp::constant, .value = 64},  // 5
     {.op = ExprOp::constant, .value = 4},  // 6
-    {.op = ExprOp::constant, .value = 32},  // 7
-    {.op = ExprOp::constant, .value = 6},  // 8
-    {.op = ExprOp::constant, .value = 3},  // 9
-    {.op = ExprOp::constant, .value = 1},  // 10
-    {.op = ExprOp::mip, .a = 3, .b = 10},  // 11
-    {.op = ExprOp::mip, .a = 4, .b = 10},  // 12
-    {.op = ExprOp::mip, .a = 3, .b = 2},  // 13
-    {.op = ExprOp::mip, .a = 4, .b = 2},  // 14
-    {.op = ExprOp::constant, .value = 64},  // 15
-    {.op = ExprOp::mul, .b = 15},  // 16
-    {.op = ExprOp::constant, .value = 32},  // 17
-    {.op = ExprOp::mul, .b = 17},  // 18
-    {.op = ExprOp::constant, .value = 4},  // 19
-    {.op = ExprOp::mul, .a = 5, .b = 19},  // 20
-    {.op = ExprOp::constant, .value = 2},  // 21
-    {.op = ExprOp::mul, .a = 5, .b = 21},  // 22
-    {.op = ExprOp::mul, .a = 6, .b = 19},  // 23
-    {.op = ExprOp::ceil_div, .a = 0, .b = 15},  // 24
-    {.op = ExprOp::constant, .value = 8},  // 25
-    {.op = ExprOp::ceil_div, .a = 3, .b = 25},  // 26
-    {.op = ExprOp::ceil_div, .a = 4, .b = 25},  // 27
-    {.op = ExprOp::ceil_div, .a = 11, .b = 25},  // 28
-    {.op = ExprOp::ceil_div, .a = 12, .b = 25},  // 29
-    {.op = ExprOp::ceil_div, .a = 13, .b = 25},  // 30
-    {.op = ExprOp::ceil_div, .a = 14, .b = 25},  // 31
-    {.op = ExprOp::constant, .value = 3},  // 32
+    {.op = ExprOp::constant, .value = 1},  // 7
+    {.op = ExprOp::mip, .a = 3, .b = 7},  // 8
+    {.op = ExprOp::mip, .a = 4, .b = 7},  // 9
+    {.op = ExprOp::mip, .a = 3, .b = 2},  // 10
+    {.op = ExprOp::mip, .a = 4, .b = 2},  // 11
+    {.op = ExprOp::constant, .value = 64},  // 12
+    {.op = ExprOp::mul, .b = 12},  // 13
+    {.op = ExprOp::constant, .value = 32},  // 14
+    {.op = ExprOp::mul, .b = 14},  // 15
+    {.op = ExprOp::constant, .value = 4},  // 16
+    {.op = ExprOp::mul, .a = 5, .b = 16},  // 17
+    {.op = ExprOp::mul, .a = 6, .b = 16},  // 18
+    {.op = ExprOp::ceil_div, .a = 0, .b = 12},  // 19
+    {.op = ExprOp::constant, .value = 8},  // 20
+    {.op = ExprOp::ceil_div, .a = 3, .b = 20},  // 21
+    {.op = ExprOp::ceil_div, .a = 4, .b = 20},  // 22
+    {.op = ExprOp::ceil_div, .a = 8, .b = 20},  // 23
+    {.op = ExprOp::ceil_div, .a = 9, .b = 20},  // 24
+    {.op = ExprOp::ceil_div, .a = 10, .b = 20},  // 25
+    {.op = ExprOp::ceil_div, .a = 11, .b = 20},  // 26
+    {.op = ExprOp::constant, .value = 3},  // 27
 };
 
 constexpr Extent kExtents[] = {
@@ -62,36 +55,26 @@ constexpr Extent kExtents[] = {
 };
 
 constexpr Resource kResources[] = {
-    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 16, .stride = 64,
+    {.name = "scene.lights", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 32, .bytes = 13, .stride = 64,
      .layout = 204180734, .import_slot = 0, .estimated_bytes = 256, .line = 16, .file = "recorders.rg"},
-    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 18, .stride = 32,
+    {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 15, .stride = 32,
      .layout = 793637526, .import_slot = 1, .estimated_bytes = 256, .line = 17, .file = "recorders.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 3, .estimated_bytes = 65536, .line = 26, .file = "recorders.rg"},
+     .is_surface = true, .import_slot = 2, .estimated_bytes = 65536, .line = 24, .file = "recorders.rg"},
     {.name = "depth", .format = Format{126}, .width = 0, .height = 1, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 28, .file = "recorders.rg"},
+     .estimated_alignment = 65536, .line = 26, .file = "recorders.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 22, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 65536, .line = 29, .file = "recorders.rg"},
+     .init = InitKind::clear, .estimated_bytes = 65536, .line = 27, .file = "recorders.rg"},
     {.name = "bloom", .format = Format{97}, .width = 3, .height = 4, .mips = 3, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 30, .file = "recorders.rg"},
-    {.name = "mask", .format = Format{130}, .width = 0, .height = 1, .layers = 2, .aspects = aspect_depth | aspect_stencil, .usage = 32,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 31, .file = "recorders.rg"},
-    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 20, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 65536, .line = 32, .file = "recorders.rg"},
-    {.name = "indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::persistent, .usage = 66, .bytes = 22, .stride = 2, .layout = 1948121759,
-     .init = InitKind::clear, .estimated_bytes = 256, .line = 33, .file = "recorders.rg"},
-    {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 23, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 256, .line = 34, .file = "recorders.rg"},
+     .estimated_alignment = 65536, .line = 28, .file = "recorders.rg"},
+    {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
+     .estimated_alignment = 256, .estimated_offset = 65536, .line = 29, .file = "recorders.rg"},
+    {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 18, .stride = 4, .layout = 1948121759,
+     .estimated_bytes = 256, .line = 30, .file = "recorders.rg"},
 };
 
 constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::table}, .stages = stage::copy, .accesses = access::transfer_write, .writes = true},  // fill_table
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // marks
-    // marks
-    {.ref = {.resource = resource::indices}, .bytes = {.offset = 7, .size = 5}, .stages = stage::index_input, .accesses = access::index_read},
-    // marks
-    {.ref = {.resource = resource::mask}, .range = {.aspects = aspect_stencil}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::stencil_attachment, .writes = true},
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},  // meshes
     {.ref = {.resource = resource::scene_lights}, .stages = stage::fragment_shader, .accesses = access::shader_storage_read},  // meshes
     {.ref = {.resource = resource::table}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // meshes
@@ -133,33 +116,26 @@ constexpr Access kAccesses[] = {
 
 constexpr Pass kPasses[] = {
     {.name = "fill_table", .module = "recorders", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 36, .file = "recorders.rg"},
-    {.name = "marks", .module = "recorders", .kind = PassKind::raster, .first_access = 1, .access_count = 3, .rendering = 0, .pipeline = 0,
-     .work = {.kind = WorkKind::draw_indexed, .x = 8, .y = 2, .first = 9, .vertex_offset = 10, .vertex_buffer_count = 1, .indices = {.resource = resource::indices}, .indices_offset = 7, .index_bytes = 2},
-     .line = 51, .file = "recorders.rg"},
-    {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 4, .access_count = 5, .rendering = 1, .pipeline = 1,
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 32, .file = "recorders.rg"},
+    {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 1, .access_count = 5, .rendering = 0, .pipeline = 0,
      .binding_count = 3, .params_count = 1, .push_bytes = 32, .push_stages = 17, .push_layout = 1658585901, .engine_set = 0,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 39, .file = "recorders.rg"},
-    {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 9, .access_count = 2, .rendering = 1, .push_bytes = 32,
-     .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 61, .file = "recorders.rg"},
-    {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 11, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 82, .file = "recorders.rg"},
-    {.name = "count", .module = "recorders", .kind = PassKind::compute, .guard = 1, .first_access = 12, .access_count = 2, .pipeline = 2,
-     .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 24, .y = 1, .z = 10}, .line = 82, .file = "recorders.rg"},
-    {.name = "bloom_first", .module = "recorders", .kind = PassKind::compute, .first_access = 14, .access_count = 2, .pipeline = 3,
-     .first_binding = 5, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 26, .y = 27, .z = 10}, .line = 66, .file = "recorders.rg"},
-    {.name = "bloom_down[1]", .module = "recorders", .kind = PassKind::compute, .first_access = 16, .access_count = 2, .pipeline = 4,
-     .first_binding = 7, .binding_count = 3, .first_params = 1, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 28, .y = 29, .z = 10},
-     .mip_limit_count = 1, .line = 73, .file = "recorders.rg"},
-    {.name = "bloom_down[2]", .module = "recorders", .kind = PassKind::compute, .first_access = 18, .access_count = 2, .pipeline = 5,
-     .first_binding = 10, .binding_count = 3, .first_params = 2, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 30, .y = 31, .z = 10},
-     .first_mip_limit = 1, .mip_limit_count = 2, .line = 73, .file = "recorders.rg"},
-    {.name = "show", .module = "recorders", .kind = PassKind::raster, .first_access = 20, .access_count = 4, .rendering = 2, .pipeline = 6,
-     .first_binding = 13, .binding_count = 3, .work = {.kind = WorkKind::draw, .x = 32}, .line = 89, .file = "recorders.rg"},
-};
-
-constexpr VertexBuffer kVertexBuffers[] = {
-    {.ref = {.resource = resource::scene_vertices}},
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 35, .file = "recorders.rg"},
+    {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 6, .access_count = 2, .rendering = 0, .push_bytes = 32,
+     .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 47, .file = "recorders.rg"},
+    {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 8, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 68, .file = "recorders.rg"},
+    {.name = "count", .module = "recorders", .kind = PassKind::compute, .guard = 1, .first_access = 9, .access_count = 2, .pipeline = 1,
+     .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 1, .z = 7}, .line = 68, .file = "recorders.rg"},
+    {.name = "bloom_first", .module = "recorders", .kind = PassKind::compute, .first_access = 11, .access_count = 2, .pipeline = 2,
+     .first_binding = 5, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 21, .y = 22, .z = 7}, .line = 52, .file = "recorders.rg"},
+    {.name = "bloom_down[1]", .module = "recorders", .kind = PassKind::compute, .first_access = 13, .access_count = 2, .pipeline = 3,
+     .first_binding = 7, .binding_count = 3, .first_params = 1, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 7},
+     .mip_limit_count = 1, .line = 59, .file = "recorders.rg"},
+    {.name = "bloom_down[2]", .module = "recorders", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
+     .first_binding = 10, .binding_count = 3, .first_params = 2, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 25, .y = 26, .z = 7},
+     .first_mip_limit = 1, .mip_limit_count = 2, .line = 59, .file = "recorders.rg"},
+    {.name = "show", .module = "recorders", .kind = PassKind::raster, .first_access = 17, .access_count = 4, .rendering = 1, .pipeline = 5,
+     .first_binding = 13, .binding_count = 3, .work = {.kind = WorkKind::draw, .x = 27}, .line = 75, .file = "recorders.rg"},
 };
 
 constexpr MipLimit kMipLimits[] = {
@@ -169,11 +145,6 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::mask}, .range = {.aspects = aspect_stencil},
-     .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::stencil_attachment},  // frame start -> marks
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
@@ -225,14 +196,14 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {.image_count = 1, .buffer_count = 1},  // before fill_table  recorders.rg:36
-    {.first_image = 1, .image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:39
-    {.first_image = 3, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before count  recorders.rg:82
-    {.first_image = 4, .image_count = 3},  // before bloom_first  recorders.rg:66
-    {.first_image = 7, .image_count = 1},  // before bloom_down[1]  recorders.rg:73
-    {.first_image = 8, .image_count = 1},  // before bloom_down[2]  recorders.rg:73
-    {.first_image = 9, .image_count = 2},  // before show  recorders.rg:89
-    {.first_image = 11, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
+    {.buffer_count = 1},  // before fill_table  recorders.rg:32
+    {.image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:35
+    {.first_image = 2, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before count  recorders.rg:68
+    {.first_image = 3, .image_count = 3},  // before bloom_first  recorders.rg:52
+    {.first_image = 6, .image_count = 1},  // before bloom_down[1]  recorders.rg:59
+    {.first_image = 7, .image_count = 1},  // before bloom_down[2]  recorders.rg:59
+    {.first_image = 8, .image_count = 2},  // before show  recorders.rg:75
+    {.first_image = 10, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -250,11 +221,7 @@ constexpr Boundary kEntry[] = {
      .stages = stage::fragment_shader | stage::compute_shader, .queue = 0, .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2}, .stages = stage::fragment_shader, .queue = 0,
      .discard = true},
-    {.ref = {.resource = resource::mask}, .range = {.aspects = aspect_stencil}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_write, .queue = 0, .discard = true},
     {.ref = {.resource = resource::table}, .stages = stage::vertex_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::indices}, .stages = stage::index_input, .accesses = access::index_read, .queue = 0,
-     .bytes = {.offset = 17, .size = 15}},
     {.ref = {.resource = resource::counted}, .queue = 0, .discard = true},
 };
 
@@ -275,36 +242,27 @@ constexpr Boundary kExit[] = {
      .stages = stage::fragment_shader | stage::compute_shader, .layout = Layout::shader_read_only, .queue = 0, .discard = true},
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2}, .stages = stage::fragment_shader,
      .layout = Layout::shader_read_only, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::mask}, .range = {.aspects = aspect_stencil}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_write, .layout = Layout::stencil_attachment, .queue = 0, .discard = true},
     {.ref = {.resource = resource::table}, .stages = stage::vertex_shader, .queue = 0, .discard = true},
-    {.ref = {.resource = resource::indices}, .stages = stage::index_input, .accesses = access::index_read, .queue = 0,
-     .bytes = {.offset = 17, .size = 15}},
     {.ref = {.resource = resource::counted}, .stages = stage::host, .accesses = access::host_read, .queue = 0},
 };
 
 constexpr Acquire kAcquires[] = {
-    {.resource = resource::depth, .group = 1, .image_barrier = 1, .image_barriers = 1,
+    {.resource = resource::depth, .group = 1, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 1, .first_clock = 4},
-    {.resource = resource::bloom, .group = 3, .image_barrier = 5, .image_barriers = 2, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 3, .first_clock = 6},
-    {.resource = resource::mask, .group = 0, .image_barrier = 0, .image_barriers = 1,
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .first_clock = 0},
-    {.resource = resource::table, .group = 0, .stages = stage::copy, .accesses = access::transfer_write, .first_clock = 2},
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 1, .first_clock = 2},
+    {.resource = resource::bloom, .group = 3, .image_barrier = 4, .image_barriers = 2, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 3, .first_clock = 4},
+    {.resource = resource::table, .group = 0, .stages = stage::copy, .accesses = access::transfer_write, .first_clock = 0},
 };
 
 constexpr Release kReleases[] = {
     {.resource = resource::depth, .stages = stage::compute_shader, .point = 3},
     {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 7},
-    {.resource = resource::mask, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_write, .point = 1},
     {.resource = resource::table, .stages = stage::vertex_shader, .point = 2},
 };
 
 constexpr Index kAliasClocks[] = {
-    0, 8, 0, 8, 1, 8, 3, 8,
+    0, 8, 1, 8, 3, 8,
 };
 
 constexpr Queue kQueues[] = {
@@ -314,7 +272,6 @@ constexpr Queue kQueues[] = {
 constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
     {.kind = StepKind::pass, .index = pass::fill_table},
-    {.kind = StepKind::pass, .index = pass::marks},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::meshes},
     {.kind = StepKind::pass, .index = pass::own_pipelines},
@@ -333,12 +290,10 @@ constexpr Step kSteps[] = {
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 18},
+    {.step_count = 17},
 };
 
 constexpr Attachment kAttachments[] = {
-    {.ref = {.resource = resource::mask}, .range = {.aspects = aspect_stencil, .mips = 1, .layers = 2}, .layout = Layout::stencil_attachment,
-     .load = LoadOp::clear, .store = StoreOp::dont_care},
     {.ref = {.resource = resource::color}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
@@ -348,14 +303,11 @@ constexpr Attachment kAttachments[] = {
 };
 
 constexpr Rendering kRenderings[] = {
-    {.stencil = 0, .width = 0, .height = 1, .layers = 2, .view_mask = 3},
-    {.first_color = 1, .color_count = 1, .depth = 2, .width = 0, .height = 1},
-    {.first_color = 3, .color_count = 1, .width = 0, .height = 1},
+    {.color_count = 1, .depth = 1, .width = 0, .height = 1},
+    {.first_color = 2, .color_count = 1, .width = 0, .height = 1},
 };
 
 constexpr ShaderModule kShaders[] = {
-    {.name = "marks.vert", .stage = ShaderStage::vertex, .words = recorders::spirv::marks_vert},
-    {.name = "marks.frag", .stage = ShaderStage::fragment, .words = recorders::spirv::marks_frag},
     {.name = "meshes.vert", .stage = ShaderStage::vertex, .words = recorders::spirv::meshes_vert},
     {.name = "meshes.frag", .stage = ShaderStage::fragment, .words = recorders::spirv::meshes_frag},
     {.name = "count.comp", .stage = ShaderStage::compute, .words = recorders::spirv::count_comp},
@@ -366,7 +318,7 @@ constexpr ShaderModule kShaders[] = {
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 5, 6, 6, 7, 8,
+    0, 1, 2, 3, 4, 4, 5, 6,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -376,29 +328,22 @@ constexpr ColorBlend kBlends[] = {
 
 constexpr VertexBinding kVertexBindings[] = {
     {.stride = 32},
-    {.stride = 32},
 };
 
 constexpr VertexAttribute kVertexAttributes[] = {
     {.format = Format{106}},
     {.location = 1, .offset = 12, .format = Format{83}},
     {.location = 2, .offset = 16, .format = Format{37}},
-    {.format = Format{106}},
-    {.location = 1, .offset = 12, .format = Format{83}},
-    {.location = 2, .offset = 16, .format = Format{37}},
 };
 
 constexpr Pipeline kPipelines[] = {
-    {.name = "marks", .pass = pass::marks, .shader_count = 2,
-     .raster = {.cull = 2, .stencil_test = true, .stencil_front = {.pass = StencilOp::replace, .read_mask = 255, .write_mask = 255, .reference = 1}, .stencil_back = {.pass = StencilOp::increment_wrap, .read_mask = 255, .write_mask = 255, .reference = 1}},
+    {.name = "meshes", .pass = pass::meshes, .shader_count = 2, .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .blend_count = 1,
      .vertex_binding_count = 1, .vertex_attribute_count = 3},
-    {.name = "meshes", .pass = pass::meshes, .first_shader = 2, .shader_count = 2, .raster = {.cull = 2, .depth_test = true, .depth_write = true},
-     .blend_count = 1, .first_vertex_binding = 1, .vertex_binding_count = 1, .first_vertex_attribute = 3, .vertex_attribute_count = 3},
-    {.name = "count", .pass = pass::count, .first_shader = 4, .shader_count = 1},
-    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 5, .shader_count = 1},
-    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 6, .shader_count = 1},
-    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 7, .shader_count = 1},
-    {.name = "show", .pass = pass::show, .first_shader = 8, .shader_count = 2, .first_blend = 1, .blend_count = 1},
+    {.name = "count", .pass = pass::count, .first_shader = 2, .shader_count = 1},
+    {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 3, .shader_count = 1},
+    {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 4, .shader_count = 1},
+    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 5, .shader_count = 1},
+    {.name = "show", .pass = pass::show, .first_shader = 6, .shader_count = 2, .first_blend = 1, .blend_count = 1},
 };
 
 constexpr Binding kBindings[] = {
@@ -448,10 +393,6 @@ constexpr Index kPassParams[] = {
     0, 1, 2,
 };
 
-constexpr Capability kNeeds[] = {
-    Capability::multiview,
-};
-
 constexpr std::string_view kConditions[] = {
     "cached",
 };
@@ -466,9 +407,9 @@ constexpr Plan kPlan =
      .groups = kGroups, .image_barriers = kImageBarriers, .buffer_barriers = kBufferBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires,
      .releases = kReleases, .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings,
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
-     .vertex_buffers = kVertexBuffers, .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings,
-     .samplers = kSamplers, .params = kParams, .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits,
-     .engine_sets = kEngineSets, .conditions = kConditions, .needs = kNeeds, .estimated_heap_bytes = 65792};
+     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
+     .pass_params = kPassParams, .transfers = kTransfers, .mip_limits = kMipLimits, .engine_sets = kEngineSets, .conditions = kConditions,
+     .estimated_heap_bytes = 65792};
 
 }  // namespace
 
@@ -507,7 +448,6 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Eng
   const rg::Import import_rows[] = {
       {.buffer = imports.scene_lights.value},
       {.buffer = imports.scene_vertices.value},
-      {},  // scene_spare
       {.image = imports.backbuffer.value},
   };
   inputs.imports = import_rows;

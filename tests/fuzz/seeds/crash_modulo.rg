@@ -1,0 +1,1 @@
+graph g() { buffer b : u32[9 % 4] }

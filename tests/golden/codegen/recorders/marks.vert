@@ -1,1 +1,0 @@
-void main() { gl_Position = vec4(position.xy + vec2(gl_ViewIndex, texcoord.x), 0.0, tint.a); }
