@@ -189,7 +189,7 @@ struct PackingEffort {
 constexpr uint64_t kDriftMoves = 30;  // a node
 
 PackingEffort packing_effort(const SegmentProblem& problem, Effort effort) {
-  if (effort == Effort::max) return {100'000 * problem.items.size(), 10};
+  if (effort == Effort::max) return {std::min<uint64_t>(100'000 * problem.items.size(), 200'000'000), 10};
   return {3000 * problem.items.size(), 6};
 }
 

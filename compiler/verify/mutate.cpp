@@ -77,7 +77,7 @@ class Mutator {
 
   // `harmless`: the class to which the mutant belongs if it survives; empty: it must not.
   void judge(const Plan& mutant, const std::string& what, const std::string& harmless) {
-    if (turn_++ % options_.every != 0) return;
+    if ((turn_++ + options_.every - options_.first % options_.every) % options_.every != 0) return;
     ++report_.mutants;
     KindReport& kind = report_.kinds[kind_];
     ++kind.made;

@@ -34,7 +34,7 @@ struct MutationReport {
 };
 
 struct MutateOptions {
-  size_t every = 1;  // try every n-th mutant
+  size_t every = 1, first = 0;  // try every n-th mutant, after `first` others
   // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about every mutant that verify() accepts, and
   // about every n-th that it rejects.
   std::function<bool(const Plan&)> misbehaves = {};

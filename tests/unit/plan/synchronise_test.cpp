@@ -251,6 +251,22 @@ TEST(Synchronise, NothingBluntAnywhere) {
   }
 }
 
+// Parts of a buffer join where they lie side by side, and only there.
+TEST(Synchronise, PartsOfABufferThatAreApartKeepABarrierEach) {
+  const FramePlan frame = plan_of(
+      "buffer whole : u32[192]\n buffer first : u32[64]\n buffer last : u32[64]\n buffer middle : u32[64] output\n"
+      "pass fill : compute { write whole as storage }\n"
+      "pass read_first : compute { read whole.bytes(0, 256) as storage  write first as storage }\n"
+      "pass read_last : compute { read whole.bytes(512, 256) as storage  write last as storage }\n"
+      "pass read_middle : compute { read whole.bytes(256, 256) as storage  read first as storage  read last as storage  write middle as storage }\n"
+      "pass show : raster { color backbuffer covers }\n");
+  const Index whole = resource_named(frame.plan, "whole");
+  size_t reads = 0;
+  for (const BufferBarrier& b : frame.plan.buffer_barriers) reads += b.buffer.resource == whole && (b.dst_accesses & access::shader_storage_read) != 0;
+  EXPECT_EQ(reads, 3u);  // 0 to 256 and 512 to the end before one group, 256 to 512 before the next
+  EXPECT_EQ(frame.unproved, 0u);
+}
+
 // ---- ranges that depend on extents --------------------------------------------------------------------------------
 
 FramePlan parts_of(const std::string& passes) {
