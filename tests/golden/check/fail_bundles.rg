@@ -23,6 +23,21 @@ graph frame(surface backbuffer: rgba8 view after copy_src)
   bundle shadowed { with lit }  //~ error[RG0208]: `lit` is declared by means of itself
   bundle wrong { read hdr as smapled }  //~ error[RG0242]: there is no role called `smapled`
 
+  bundle d0 { keep }
+  bundle d1 { with d0  with d0 }
+  bundle d2 { with d1  with d1 }
+  bundle d3 { with d2  with d2 }
+  bundle d4 { with d3  with d3 }
+  bundle d5 { with d4  with d4 }
+  bundle d6 { with d5  with d5 }
+  bundle d7 { with d6  with d6 }
+  bundle d8 { with d7  with d7 }
+  bundle d9 { with d8  with d8 }
+  bundle d10 { with d9  with d9 }
+  bundle d11 { with d10  with d10 }
+  bundle d12 { with d11  with d11 }
+  bundle d13 { with d12  with d12 }
+  pass doubled : compute { with d13 }
   pass light : compute { write hdr as storage  write backbuffer as storage }
   pass shade : compute { with lit }  //~ note[RG0452]: `lit` is used here
   for i in 0..2 { pass each[i] : compute { with wrong } }  //~ note[RG0452]: `wrong` is used here
