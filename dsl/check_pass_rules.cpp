@@ -319,6 +319,7 @@ void check_conflicts(const Rules& rules) {
 }
 
 void check_names(const Rules& rules) {
+  const bool has_shaders = !rules.pass.shaders.empty();
   struct Taken {
     Span span;
     const Access* access = nullptr;
@@ -327,7 +328,7 @@ void check_names(const Rules& rules) {
   const auto claim = [&](const std::string& name, Taken by) {
     const auto [at, fresh] = seen.emplace(name, by);
     const Access* first = at->second.access;
-    if (fresh && reserved_in_glsl(name)) rules.checker.report(DiagnosticKind::ReservedName, by.span, {name});
+    if (fresh && has_shaders && reserved_in_glsl(name)) rules.checker.report(DiagnosticKind::ReservedName, by.span, {name});
     if (fresh || (first && by.access && conflict(rules, *first, *by.access))) return;  // no name would mend a conflict
     rules.checker.report(DiagnosticKind::AccessNameTaken, by.span, {name}).note(DiagnosticKind::OtherAccess, at->second.span);
   };

@@ -290,7 +290,7 @@ void read_boundaries(Builder& at) {
 
 void read_init(Builder& at) {
   if (!at.node.has_init || !at.node.clear) {
-    const bool needs = at.resource.lifetime == Lifetime::history;
+    const bool needs = at.ok && at.resource.lifetime == Lifetime::history;
     if (needs) fail(at, DiagnosticKind::HistoryNeedsInit, at.node.name.span, {at.resource.name});
     return;
   }

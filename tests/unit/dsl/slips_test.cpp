@@ -91,7 +91,7 @@ TEST(Suggestions, NoFixChangesWhatATypeMeans) {
   }
   const golden::Loaded format = load_text(in_graph("image a : rgb16f view"));
   EXPECT_EQ(first_fix(format), "");
-  EXPECT_EQ(first_note(format), "did you mean `rgba16f`?");
+  EXPECT_EQ(first_note(format), "did you mean `rgba16f` or `rg16f`?");
   EXPECT_EQ(first_fix(load_text(in_graph("image a : rbga16f view"))), "rgba16f");
 }
 
@@ -147,7 +147,7 @@ TEST(Messages, WordsOfGlslCannotNameWhatShadersSee) {
   EXPECT_EQ(codes(load_text("const layout = 3\n")), Codes{"RG0213"});
   EXPECT_EQ(codes(load_text("struct S { in: f32 }\n")), Codes{"RG0213"});
   EXPECT_EQ(codes(load_text("struct buffer { a: f32 }\n")), Codes{"RG0213"});
-  EXPECT_EQ(codes(load_text(in_graph("pass p : compute { write out = s as storage }"))), Codes{"RG0213"});
+  EXPECT_EQ(codes(load_text(in_graph("pass p : compute { shader \"p.comp\" group 8 8 1  write out = s as storage  dispatch over s }"))), Codes{"RG0213"});
 }
 
 TEST(Messages, ImportsOfNoFile) {
