@@ -18,7 +18,7 @@ void check_switches(const std::string& root_path, const dsl::Program& program, c
       std::vector<std::string_view> all;
       for (const dsl::Graph& graph : program.graphs)
         for (const auto& row : rows_of(graph)) all.push_back(row.name);
-      if (const std::string guess = dsl::closest(name, all); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
+      if (const std::string guess = dsl::closest(name, all).shown(); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
     }
   };
   const auto passes = [](const dsl::Graph& graph) -> const auto& { return graph.passes; };

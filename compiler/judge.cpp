@@ -57,7 +57,7 @@ bool names_exist(const dsl::Graph& graph, const Assertion& assertion, dsl::Diagn
     std::vector<std::string_view> known;
     for (const dsl::Pass& pass : graph.passes) known.push_back(pass.name);
     for (const dsl::Resource& resource : graph.resources) known.push_back(resource.name);
-    const std::string guess = dsl::closest(name, known);
+    const std::string guess = dsl::closest(name, known).shown();
     if (!guess.empty()) error.note(DiagnosticKind::DidYouMean, assertion.span, {guess});
     return false;
   }
@@ -77,7 +77,7 @@ const Fact* find_fact(const Assertion& assertion, dsl::Diagnostics& diagnostics)
     dsl::Diagnostic& error = diagnostics.report(DiagnosticKind::AssertionUnknownFact, assertion.span, {assertion.fact, fact_list()});
     std::vector<std::string_view> names;
     for (const Fact& known : facts) names.push_back(known.name);
-    const std::string guess = dsl::closest(assertion.fact, names);
+    const std::string guess = dsl::closest(assertion.fact, names).shown();
     if (!guess.empty()) error.note(DiagnosticKind::DidYouMean, assertion.span, {guess});
     return nullptr;
   }

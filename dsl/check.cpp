@@ -4,6 +4,7 @@
 
 #include "dsl/check_state.h"
 #include "dsl/paths.h"
+#include "dsl/reserved.h"
 
 namespace rg::dsl {
 namespace {
@@ -13,6 +14,7 @@ void add_constant(Checker& checker, uint32_t symbol) {
   if (!value.known_integer() || checker.symbols[symbol].is_private) return;  // private ones reach neither shaders nor C++
   const ast::Name name = checker.symbols[symbol].name;
   if (!claim_public_name(checker, name)) return;
+  if (reserved_in_glsl(name.text)) return void(checker.report(DiagnosticKind::ReservedName, name.span, {std::string(name.text)}));
   checker.program.constants.push_back({std::string(name.text), value.at[0].value});
 }
 
@@ -75,7 +77,7 @@ void check_target(Checker& checker, const ast::File& file) {
 }  // namespace
 
 Program check(const std::vector<Module>& modules, Diagnostics& diagnostics) {
-  Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, {}, false};
+  Checker checker{modules, diagnostics, {}, {}, {}, {}, {}, {}, {}, {}, {}, false, 0, {}};
   checker.lost_names = std::any_of(modules.begin(), modules.end(), [](const Module& module) { return module.tree.lost_names; });
   checker.program.module = modules.back().name;
   collect_names(checker);

@@ -61,8 +61,8 @@ const Row* find_word(Builder& at, const ast::Name& name, const Row (&rows)[Count
   at.ok = false;
   if (name.empty()) return nullptr;
   Diagnostic diagnostic(DiagnosticKind::UnknownBlendWord, name.span, {std::string(name.text), what});
-  const std::string guess = closest(name.text, candidates);
-  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  const Guess guess = closest(name.text, candidates);
+  suggest(diagnostic, name.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   return nullptr;
 }
@@ -95,9 +95,9 @@ Role default_role(const Builder& at) {
 
 void report_unknown_role(Builder& at, const ast::Name& word) {
   Diagnostic diagnostic(DiagnosticKind::UnknownRole, word.span, {std::string(word.text)});
-  const std::string guess =
+  const Guess guess =
       closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "host", "element"});
-  if (!guess.empty()) diagnostic.fix(word.span, guess);
+  suggest(diagnostic, word.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.ok = false;
 }

@@ -4,6 +4,7 @@
 // buffer. A cell remembers under which guards and conditions it has been written for certain. A pass that touches mip m of an image runs only at
 // extents where the image has that mip: what it writes is certain for readers that need the same mip, and for the mips that vanish with it.
 #include <algorithm>
+#include <set>
 
 #include "dsl/check_state.h"
 #include "dsl/features.h"
@@ -228,10 +229,29 @@ bool defines(const Access& access) { return access.mode == Mode::write || access
 
 bool needs_earlier(const Access& access) { return !defines(access); }
 
-const Pass* find_later_writer(const Walk& walk, uint32_t pass, ResourceId resource) {
+// Whether `writer` writes something of what `reader` wants and no earlier pass writes always.
+bool fills(const Walk& walk, const Access& reader, const Access& writer) {
+  if (reader.resource != writer.resource || writer.age != 0 || writer.mode != Mode::write) return false;
+  const Resource& resource = walk.graph.resources[reader.resource];
+  const Tracked& tracked = walk.tracked[reader.resource.value];
+  if (resource.kind == ResourceKind::buffer) {
+    if (!reader.range.offset.valid() || !writer.range.offset.valid()) return true;
+    const ByteRange wanted = bytes_of(walk, resource, reader.range, {}), has = bytes_of(walk, resource, writer.range, {});
+    return !reaches(walk, wanted.begin, has.end) && !reaches(walk, has.begin, wanted.end);
+  }
+  const Row row = row_of(walk, resource);
+  std::set<uint32_t> missing;
+  each_cell(row, resource, reader.range, [&](uint32_t cell) {
+    if (tracked.cells.empty() || !tracked.cells[cell].always) missing.insert(cell);
+    return true;
+  });
+  return !each_cell(row, resource, writer.range, [&](uint32_t cell) { return !missing.contains(cell); });
+}
+
+const Pass* find_later_writer(const Walk& walk, uint32_t pass, const Access& reader) {
   for (uint32_t later = pass; later < walk.graph.passes.size(); ++later)
     for (const Access& access : walk.graph.passes.rows[later].accesses)
-      if (access.resource == resource && access.age == 0 && access.mode == Mode::write) return &walk.graph.passes.rows[later];
+      if (fills(walk, reader, access)) return &walk.graph.passes.rows[later];
   return nullptr;
 }
 
@@ -273,7 +293,7 @@ void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& 
     return;
   }
   if (!missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
-  if (const Pass* later = find_later_writer(walk, pass + 1, access.resource))
+  if (const Pass* later = find_later_writer(walk, pass + 1, access))
     diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
   diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
 }

@@ -18,8 +18,12 @@ bool read_axes(Checker& checker, uint32_t module, const std::vector<ast::Expr>& 
 
 bool axes_agree(Checker& checker, const ast::ExtentDeclaration& node, const Extent& extent) {
   const size_t axes = node.initial.size();
+  if (axes > 3) {
+    checker.report(DiagnosticKind::WrongOperand, node.initial[3].span, {"at most three axes"});
+    return false;
+  }
   for (const auto* bound : {&node.maximum, &node.minimum}) {
-    if (axes <= 3 && (bound->empty() || bound->size() == axes)) continue;
+    if (bound->empty() || bound->size() == axes) continue;
     const char* what = bound == &node.maximum ? "maximum" : "minimum";
     checker.report(DiagnosticKind::ExtentAxes, node.span, {extent.name, std::to_string(axes), what, std::to_string(bound->size())});
     return false;

@@ -140,8 +140,8 @@ void report_unknown(Checker& checker, uint32_t module, std::string_view name, Sp
   if (!checker.unknown.emplace(std::to_string(module) + " " + std::string(name)).second) return;
   if (report_if_private(checker, module, name, span)) return;
   Diagnostic diagnostic(DiagnosticKind::UnknownName, span, {describe(kind), std::string(name)});
-  const std::string guess = closest(name, names_of_kind(checker, module, kind));
-  if (!guess.empty()) diagnostic.fix(span, guess);
+  const Guess guess = closest(name, names_of_kind(checker, module, kind));
+  suggest(diagnostic, {span.file, span.end - static_cast<uint32_t>(name.size()), span.end}, guess);  // a module before it stays
   checker.diagnostics.report(std::move(diagnostic));
 }
 
@@ -182,8 +182,8 @@ std::optional<uint32_t> find_qualified(Checker& checker, uint32_t module, const 
     for (const Module& each : checker.modules)
       if (checker.module_names[module].count(each.name)) names.push_back(each.name);
     Diagnostic diagnostic(DiagnosticKind::UnknownModule, owner.span, {spelled(owner)});
-    const std::string guess = closest(owner.text, names);
-    if (!guess.empty()) diagnostic.fix(owner.span, guess);
+    const Guess guess = closest(owner.text, names);
+    suggest(diagnostic, owner.span, guess);
     checker.diagnostics.report(std::move(diagnostic));
     return std::nullopt;
   }

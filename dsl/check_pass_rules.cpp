@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "dsl/check_state.h"
+#include "dsl/reserved.h"
 
 namespace rg::dsl {
 namespace {
@@ -306,12 +307,14 @@ bool may_stand_together(const Access& a, const Access& b) {
   return a.mode == Mode::atomic && b.mode == Mode::atomic && a.role == b.role;
 }
 
+bool conflict(const Rules& rules, const Access& a, const Access& b) { return overlap(rules, a, b) && !may_stand_together(a, b); }
+
 void check_conflicts(const Rules& rules) {
   std::unordered_map<uint32_t, std::vector<const Access*>> seen;  // by resource
   for (const Access& access : rules.pass.accesses) {
     auto& others = seen[access.resource.value];
     for (const Access* other : others) {
-      if (!overlap(rules, *other, access) || may_stand_together(*other, access)) continue;
+      if (!conflict(rules, *other, access)) continue;
       rules.checker
           .report(DiagnosticKind::AccessesConflict, access.span,
                   {rules.pass.name, rules.resource(access).name, word_of(other->role), word_of(access.role)})
@@ -323,14 +326,22 @@ void check_conflicts(const Rules& rules) {
 }
 
 void check_names(const Rules& rules) {
-  std::unordered_map<std::string, Span> seen;
-  const auto claim = [&](const std::string& name, Span span) {
-    const auto [at, fresh] = seen.emplace(name, span);
-    if (!fresh) rules.checker.report(DiagnosticKind::AccessNameTaken, span, {name}).note(DiagnosticKind::OtherAccess, at->second);
+  const bool has_shaders = !rules.pass.shaders.empty();
+  struct Taken {
+    Span span;
+    const Access* access = nullptr;
+  };
+  std::unordered_map<std::string, Taken> seen;
+  const auto claim = [&](const std::string& name, Taken by) {
+    const auto [at, fresh] = seen.emplace(name, by);
+    const Access* first = at->second.access;
+    if (fresh && has_shaders && reserved_in_glsl(name)) rules.checker.report(DiagnosticKind::ReservedName, by.span, {name});
+    if (fresh || (first && by.access && conflict(rules, *first, *by.access))) return;  // no name would mend a conflict
+    rules.checker.report(DiagnosticKind::AccessNameTaken, by.span, {name}).note(DiagnosticKind::OtherAccess, at->second.span);
   };
   for (const Access& access : rules.pass.accesses)
-    if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, access.span);
-  for (const ParamsId params : rules.pass.params) claim(rules.graph.params[params].name, rules.graph.params[params].span);
+    if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, {access.span, &access});
+  for (const ParamsId params : rules.pass.params) claim(rules.graph.params[params].name, {rules.graph.params[params].span});
 }
 
 }  // namespace

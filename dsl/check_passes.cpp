@@ -15,6 +15,7 @@ struct Builder {
   bool has_draw = false, has_dispatch = false, fullscreen = false;
   Span shader_span, draw_span, dispatch_span;
   std::vector<const ast::BundleDeclaration*> open = {};  // bundles that are being read
+  size_t bundled = 0;                                    // statements that came from bundles
 };
 
 void fail(Builder& at, DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
@@ -215,10 +216,16 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   for (const Params& params : at.scope.graph.params)
     if (!params.pass.valid()) candidates.push_back(params.name);
   Diagnostic diagnostic(DiagnosticKind::UnknownName, node.name.span, {"parameter block", name});
-  const std::string guess = closest(name, candidates);
-  if (!guess.empty()) diagnostic.fix(node.name.span, guess);
+  const Guess guess = closest(name, candidates);
+  suggest(diagnostic, node.name.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.out.dropped = true;
+}
+
+std::vector<std::string_view> pass_names(const GraphScope& scope) {
+  std::vector<std::string_view> names;
+  for (const Pass& pass : scope.graph.passes) names.push_back(pass.name);
+  return names;
 }
 
 void read_after(Builder& at, const ast::Expr& value) {
@@ -229,10 +236,12 @@ void read_after(Builder& at, const ast::Expr& value) {
   if (found != at.scope.passes.end()) return at.out.pass.after.push_back(found->second);
   if (at.checker.lost_names || at.scope.failed.count("pass " + name)) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
-  for (const Pass& pass : at.scope.graph.passes) candidates.push_back(pass.name);
+  for (const std::string_view known : pass_names(at.scope))
+    if (known.starts_with(at.scope.prefix)) candidates.push_back(known.substr(at.scope.prefix.size()));  // as they are called here
   Diagnostic diagnostic(DiagnosticKind::UnknownEarlierPass, value.span, {name});
-  const std::string guess = closest(name, candidates);
-  if (!guess.empty()) diagnostic.fix(value.span, guess);
+  Guess guess = closest(*evaluated, candidates);
+  guess.certain = guess.certain && spelled(value) == *evaluated && guess.words[0].find('[') == std::string::npos;  // an index may be a variable
+  suggest(diagnostic, value.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.out.dropped = true;
 }
@@ -255,6 +264,7 @@ void visit_all(Builder& at, const std::vector<ast::Statement>& statements);
 
 // `with world`: the statements of the bundle, as if they stood here.
 void read_bundle(Builder& at, const ast::Expr& value) {
+  constexpr size_t kMaxDepth = 100, kMaxStatements = 4096;  // both of one pass
   const std::string name = spelled(value);
   const auto found = at.scope.bundles.find(at.scope.prefix + name);
   if (found == at.scope.bundles.end()) {
@@ -264,13 +274,17 @@ void read_bundle(Builder& at, const ast::Expr& value) {
     for (const auto& [known, bundle] : at.scope.bundles) candidates.push_back(bundle->name.text);
     std::sort(candidates.begin(), candidates.end());
     Diagnostic diagnostic(DiagnosticKind::UnknownName, value.span, {"bundle", name});
-    const std::string guess = closest(name, candidates);
-    if (!guess.empty()) diagnostic.fix(value.span, guess);
+    const Guess guess = closest(name, candidates);
+    suggest(diagnostic, value.span, guess);
     at.checker.diagnostics.report(std::move(diagnostic));
     return;
   }
   const ast::BundleDeclaration* bundle = found->second;
   if (std::find(at.open.begin(), at.open.end(), bundle) != at.open.end()) return fail(at, DiagnosticKind::NeedsItself, value.span, {name});
+  if (at.open.size() >= kMaxDepth) return fail(at, DiagnosticKind::NestingTooDeep, value.span, {std::to_string(kMaxDepth)});
+  if (at.bundled > kMaxStatements) return void(at.out.dropped = true);  // reported
+  at.bundled += std::max<size_t>(bundle->statements.size(), 1);
+  if (at.bundled > kMaxStatements) return fail(at, DiagnosticKind::BundlesTooLong, at.node.name.span, {at.out.pass.name, std::to_string(kMaxStatements)});
   at.out.dropped |= bundle->has_error;
   at.open.push_back(bundle);
   const size_t told = at.checker.diagnostics.rows().size();

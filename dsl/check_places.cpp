@@ -58,19 +58,28 @@ std::string member_called(const GraphScope& scope, const std::string& name) {
   return found;
 }
 
+std::vector<std::string_view> resource_names(const GraphScope& scope) {
+  std::vector<std::string_view> names;
+  for (const Resource& resource : scope.graph.resources) names.push_back(resource.name);
+  return names;
+}
+
 void report_unknown(Walk walk, const Expr& expr, const std::string& name) {
   walk.scope.incomplete = true;
   if (walk.checker.lost_names || !walk.scope.failed.emplace(walk.scope.prefix + name, true).second)
     return;  // one mistake, however often it is repeated
-  std::vector<std::string_view> candidates;
-  for (const Resource& resource : walk.scope.graph.resources) candidates.push_back(resource.name);
+  const std::string_view prefix = walk.scope.prefix;
+  std::vector<std::string_view> candidates;  // as they are called here
+  for (const std::string_view known : resource_names(walk.scope))
+    if (known.starts_with(prefix)) candidates.push_back(known.substr(prefix.size()));
   for (const Binding& binding : walk.scope.bindings)
     if (binding.kind == Binding::Kind::place) candidates.push_back(binding.name);
-  const Span span = expr.span;
-  Diagnostic diagnostic(DiagnosticKind::UnknownName, span, {"resource", name});
-  std::string guess = member_called(walk.scope, name);
-  if (guess.empty()) guess = closest(name, candidates);
-  if (!guess.empty()) diagnostic.fix(span, guess);
+  Diagnostic diagnostic(DiagnosticKind::UnknownName, expr.span, {"resource", name});
+  const std::string member = member_called(walk.scope, name);
+  const std::string_view here = name.starts_with(prefix) ? std::string_view(name).substr(prefix.size()) : std::string_view(name);
+  Guess guess = member.empty() ? closest(here, candidates) : Guess{{member}, true};
+  guess.certain = guess.certain && spelled(expr) == here && guess.words[0].find('[') == std::string::npos;  // an index may be a variable
+  suggest(diagnostic, expr.span, guess);
   walk.checker.diagnostics.report(std::move(diagnostic));
 }
 
@@ -175,8 +184,8 @@ Place member_place(Walk walk, const Expr& expr) {
   const Span span{expr.span.file, expr.span.end - length, expr.span.end};
   walk.scope.incomplete = true;
   Diagnostic diagnostic(DiagnosticKind::UnknownPart, span, {std::string(expr.text)});
-  const std::string guess = closest(expr.text, {"mip", "mips", "layer", "layers", "slice", "slices", "depth", "stencil", "bytes", "prev", "view"});
-  if (!guess.empty()) diagnostic.fix(span, guess);
+  const Guess guess = closest(expr.text, {"mip", "mips", "layer", "layers", "slice", "slices", "depth", "stencil", "bytes", "prev", "view"});
+  suggest(diagnostic, span, guess);
   walk.checker.diagnostics.report(std::move(diagnostic));
   return {};
 }
@@ -279,8 +288,8 @@ Place take_view(Walk walk, const Expr& call, Place place) {
   if (format == Format::none) {
     walk.scope.incomplete = true;
     Diagnostic diagnostic(DiagnosticKind::UnknownFormat, call.operands[1].span, {wanted});
-    const std::string guess = closest(wanted, format_names());
-    if (!guess.empty()) diagnostic.fix(call.operands[1].span, guess);
+    const Guess guess = closest_type(wanted, format_names());
+    suggest(diagnostic, call.operands[1].span, guess);
     walk.checker.diagnostics.report(std::move(diagnostic));
     return {};
   }

@@ -78,7 +78,7 @@ void set_count(Builder& at, const ast::Setting& setting, int64_t greatest, uint3
 }
 
 void set_lifetime(Builder& at, const ast::Setting& setting, Lifetime lifetime) {
-  if (at.resource.lifetime != Lifetime::transient) fail(at, DiagnosticKind::LifetimesConflict, setting.span, {at.resource.name});
+  if (at.resource.lifetime != Lifetime::transient) return fail(at, DiagnosticKind::LifetimesConflict, setting.span, {at.resource.name});
   at.resource.lifetime = lifetime;
 }
 
@@ -131,8 +131,8 @@ void read_format(Builder& at) {
   at.resource.format = find_format(name.text);
   if (at.resource.format != Format::none || name.empty()) return;
   Diagnostic diagnostic(DiagnosticKind::UnknownFormat, name.span, {std::string(name.text)});
-  const std::string guess = closest(name.text, format_names());
-  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  const Guess guess = closest_type(name.text, format_names());
+  suggest(diagnostic, name.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.ok = false;
 }
@@ -290,7 +290,7 @@ void read_boundaries(Builder& at) {
 
 void read_init(Builder& at) {
   if (!at.node.has_init || !at.node.clear) {
-    const bool needs = at.resource.lifetime == Lifetime::history;
+    const bool needs = at.ok && at.resource.lifetime == Lifetime::history;
     if (needs) fail(at, DiagnosticKind::HistoryNeedsInit, at.node.name.span, {at.resource.name});
     return;
   }
@@ -397,8 +397,8 @@ uint32_t find_stages(Checker& checker, const std::vector<ast::Name>& words) {
     }
     if (word.empty()) continue;
     Diagnostic diagnostic(DiagnosticKind::UnknownStage, word.span, {std::string(word.text)});
-    const std::string guess = closest(word.text, candidates);
-    if (!guess.empty()) diagnostic.fix(word.span, guess);
+    const Guess guess = closest(word.text, candidates);
+    suggest(diagnostic, word.span, guess);
     checker.diagnostics.report(std::move(diagnostic));
   }
   return stages;

@@ -67,6 +67,12 @@ struct NodeHash {
   }
 };
 
+struct Deeper {
+  uint32_t& depth;
+  explicit Deeper(uint32_t& depth_) : depth(++depth_) {}
+  ~Deeper() { --depth; }
+};
+
 struct Checker {
   const std::vector<Module>& modules;
   Diagnostics& diagnostics;
@@ -80,6 +86,8 @@ struct Checker {
   std::unordered_map<std::string, Span> public_names;                        // structs and constants: shaders and C++ see them unqualified
   std::set<std::string> unknown;                                             // "MODULE NAME" that were reported as unknown: once is enough
   bool lost_names = false;                                                   // a name that is not found may be in what did not parse
+  uint32_t depth = 0;                                                        // of evaluations inside one another: bounds the stack
+  std::vector<uint32_t> struct_depths;                                       // by struct: itself and the longest chain of structs inside it
 
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
     return diagnostics.report(kind, span, std::move(arguments));

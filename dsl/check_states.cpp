@@ -52,8 +52,8 @@ bool read_word(Checker& checker, const ast::Setting& setting, const Word<Enum> (
     listed += (listed.empty() ? "`" : ", `") + std::string(row.word) + "`";
   }
   Diagnostic diagnostic(DiagnosticKind::UnknownSettingValue, name.span, {std::string(name.text), std::string(setting.word.text), listed});
-  const std::string guess = closest(name.text, candidates);
-  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  const Guess guess = closest(name.text, candidates);
+  suggest(diagnostic, name.span, guess);
   checker.diagnostics.report(std::move(diagnostic));
   return false;
 }
@@ -146,8 +146,8 @@ void read_capability(Checker& checker, const ast::Name& name, Feature& feature) 
   const auto found = std::find(kNames.begin(), kNames.end(), name.text);
   if (found != kNames.end()) return void(feature.capability = static_cast<Capability>(found - kNames.begin() + 1));
   Diagnostic diagnostic(DiagnosticKind::UnknownName, name.span, {"capability of devices", std::string(name.text)});
-  const std::string guess = closest(name.text, kNames);
-  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  const Guess guess = closest(name.text, kNames);
+  suggest(diagnostic, name.span, guess);
   checker.diagnostics.report(std::move(diagnostic));
 }
 
@@ -176,8 +176,8 @@ std::optional<uint32_t> value_index(Checker& checker, const ast::FeatureTerm& te
   const std::vector<std::string_view> candidates(feature.values.begin(), feature.values.end());
   Diagnostic diagnostic(DiagnosticKind::UnknownName, term.value.span, {"value of feature `" + feature.name + "`", std::string(term.value.text)});
   const bool truth = is_bool(feature) && (term.value.text == "true" || term.value.text == "false");
-  const std::string guess = truth ? (term.value.text == "true" ? "on" : "off") : closest(term.value.text, candidates);
-  if (!guess.empty()) diagnostic.fix(term.value.span, guess);
+  const Guess guess = truth ? Guess{{term.value.text == "true" ? "on" : "off"}, true} : closest(term.value.text, candidates);
+  suggest(diagnostic, term.value.span, guess);
   diagnostic.note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
   checker.diagnostics.report(std::move(diagnostic));
   return std::nullopt;

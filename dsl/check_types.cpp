@@ -1,9 +1,11 @@
 // Structs and the types of their fields.
 #include <algorithm>
+#include <utility>
 
 #include "dsl/check_state.h"
 #include "dsl/format_table.h"
 #include "dsl/layout.h"
+#include "dsl/reserved.h"
 
 namespace rg::dsl {
 namespace {
@@ -25,16 +27,34 @@ const NamedType* find_type(std::string_view name) {
   return at == std::end(kTypes) ? nullptr : at;
 }
 
-void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& name) {
-  if (checker.lost_names) return;
+// As other languages call them; only what means the same.
+std::string_view type_elsewhere(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kNames[] = {
+      {"float", "f32"},    {"int", "i32"},      {"uint", "u32"},     {"unsigned", "u32"}, {"int32_t", "i32"}, {"uint32_t", "u32"},
+      {"float2", "vec2"},  {"float3", "vec3"},  {"float4", "vec4"},  {"int2", "ivec2"},   {"int3", "ivec3"},  {"int4", "ivec4"},
+      {"uint2", "uvec2"},  {"uint3", "uvec3"},  {"uint4", "uvec4"},  {"vec2f", "vec2"},   {"vec3f", "vec3"},  {"vec4f", "vec4"},
+      {"vec2i", "ivec2"},  {"vec3i", "ivec3"},  {"vec4i", "ivec4"},  {"vec2u", "uvec2"},  {"vec3u", "uvec3"}, {"vec4u", "uvec4"},
+      {"mat3x3", "mat3"},  {"mat4x4", "mat4"},
+  };
+  const auto* at = std::find_if(std::begin(kNames), std::end(kNames), [&](const auto& row) { return row.first == name; });
+  return at == std::end(kNames) ? std::string_view() : at->second;
+}
+
+Guess guess_type(const Checker& checker, uint32_t module, std::string_view name) {
+  if (const std::string_view same = type_elsewhere(name); !same.empty()) return {{std::string(same)}, true};
   std::vector<std::string_view> candidates;
   for (const NamedType& type : kTypes) candidates.push_back(type.name);
   for (const Symbol& symbol : checker.symbols)
     if (symbol.kind == SymbolKind::structure && checker.scopes[module].count(symbol.name.text)) candidates.push_back(symbol.name.text);
+  const Guess guess = closest(name, candidates);
+  return !guess.words.empty() && find_type(guess.words[0]) ? closest_type(name, candidates) : guess;
+}
+
+void report_unknown_type(Checker& checker, uint32_t module, const ast::Expr& name) {
+  if (checker.lost_names) return;
   if (report_if_private(checker, module, name.text, name.span)) return;
   Diagnostic diagnostic(DiagnosticKind::UnknownType, name.span, {std::string(name.text)});
-  const std::string guess = closest(name.text, candidates);
-  if (!guess.empty()) diagnostic.fix(name.span, guess);
+  suggest(diagnostic, name.span, guess_type(checker, module, name.text));
   checker.diagnostics.report(std::move(diagnostic));
 }
 
@@ -67,8 +87,6 @@ std::optional<Field> read_field(Checker& checker, uint32_t module, const ast::Fi
   return field;
 }
 
-bool reserved_in_glsl(std::string_view name) { return name.substr(0, 3) == "gl_" || name.find("__") != std::string_view::npos; }
-
 bool read_fields(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration, Struct& record) {
   bool ok = true;
   std::unordered_map<std::string_view, Span> seen;
@@ -99,10 +117,23 @@ bool nests_alike(Checker& checker, const Struct& record, bool scalar) {
   return true;
 }
 
+constexpr uint32_t kMaxDepth = 100;  // of structs in structs
+
+uint32_t depth_of(const Checker& checker, const Struct& record) {
+  uint32_t depth = 1;
+  for (const Field& field : record.fields)
+    if (field.type.record.valid()) depth = std::max(depth, checker.struct_depths[field.type.record.value] + 1);
+  return depth;
+}
+
 StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDeclaration& declaration) {
   Struct record;
   record.name = std::string(declaration.name.text);
   record.span = declaration.name.span;
+  if (reserved_in_glsl(declaration.name.text)) {
+    checker.report(DiagnosticKind::ReservedName, record.span, {record.name});
+    return {};
+  }
   if (declaration.name.empty() || !read_fields(checker, module, declaration, record)) return {};
   if (record.fields.empty()) {
     checker.report(DiagnosticKind::EmptyStruct, record.span, {record.name});
@@ -114,6 +145,12 @@ StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDecl
     return {};
   }
   if (!claim_public_name(checker, declaration.name)) return {};
+  const uint32_t depth = depth_of(checker, record);
+  if (depth > kMaxDepth) {
+    checker.report(DiagnosticKind::NestingTooDeep, record.span, {std::to_string(kMaxDepth)});
+    return {};
+  }
+  checker.struct_depths.push_back(depth);
   return checker.program.structs.add(std::move(record));
 }
 
@@ -169,6 +206,12 @@ StructId struct_of(Checker& checker, uint32_t symbol) {
   }
   if (checker.symbols[symbol].progress == Symbol::Progress::open) {
     checker.symbols[symbol].progress = Symbol::Progress::running;
+    const Deeper deeper(checker.depth);
+    if (checker.depth > kMaxDepth) {
+      checker.report(DiagnosticKind::NestingTooDeep, checker.symbols[symbol].name.span, {std::to_string(kMaxDepth)});
+      checker.symbols[symbol].progress = Symbol::Progress::done;
+      return {};
+    }
     const ast::StructDeclaration* in_place = checker.symbols[symbol].record;
     const auto& node = in_place ? *in_place : std::get<ast::StructDeclaration>(*checker.symbols[symbol].declaration);
     checker.symbols[symbol].id = declare_struct(checker, checker.symbols[symbol].module, node).value;

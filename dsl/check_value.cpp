@@ -173,9 +173,9 @@ Value part_of(Evaluator& at, const ast::Expr& expr, const Value& base) {
     return result;
   }
   Diagnostic diagnostic(DiagnosticKind::UnknownPart, expr.span, {std::string(expr.text)});
-  const std::string guess = closest(expr.text, {"x", "y", "z", "width", "height", "depth", "area"});
+  const Guess guess = closest(expr.text, {"x", "y", "z", "width", "height", "depth", "area"});
   const auto length = static_cast<uint32_t>(expr.text.size());
-  if (!guess.empty()) diagnostic.fix({expr.span.file, expr.span.end - length, expr.span.end}, guess);
+  suggest(diagnostic, {expr.span.file, expr.span.end - length, expr.span.end}, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   return error_value();
 }
@@ -266,8 +266,8 @@ Value call(Evaluator& at, const ast::Expr& expr) {
   }
   if (at.scope && is_failed(at.checker, *at.scope, expr)) return error_value();
   Diagnostic diagnostic(DiagnosticKind::UnknownFunction, callee.span, {spelled(callee)});
-  const std::string guess = closest(callee.text, {std::begin(kFunctions), std::end(kFunctions)});
-  if (!guess.empty()) diagnostic.fix(callee.span, guess);
+  const Guess guess = closest(callee.text, {std::begin(kFunctions), std::end(kFunctions)});
+  suggest(diagnostic, callee.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   return error_value();
 }
@@ -310,8 +310,8 @@ void report_unknown_value(Evaluator& at, const ast::Expr& expr) {
     for (const Resource& resource : at.scope->graph.resources) names.push_back(resource.name);
   }
   Diagnostic diagnostic(DiagnosticKind::UnknownName, expr.span, {"constant, extent or resource", std::string(expr.text)});
-  const std::string guess = closest(expr.text, names);
-  if (!guess.empty()) diagnostic.fix(expr.span, guess);
+  const Guess guess = closest(expr.text, names);
+  suggest(diagnostic, expr.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
 }
 
@@ -333,6 +333,12 @@ Value name(Evaluator& at, const ast::Expr& expr) {
 }
 
 Value evaluate(Evaluator& at, const ast::Expr& expr) {
+  constexpr uint32_t kMaxDepth = 3000;  // through constants that need constants, too
+  const Deeper deeper(at.checker.depth);
+  if (at.checker.depth > kMaxDepth) {
+    at.checker.report(DiagnosticKind::NestingTooDeep, expr.span, {std::to_string(kMaxDepth)});
+    return error_value();
+  }
   switch (expr.kind) {
     case ExprKind::error:
       return error_value();

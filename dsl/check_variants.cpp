@@ -27,8 +27,8 @@ void read_need(Checker& checker, const ast::Name& need, Spectrum& spectrum, size
   const auto found = std::find(names.begin(), names.end(), need.text);
   if (found != names.end()) return spectrum.members[member].needs.push_back(static_cast<uint32_t>(found - names.begin()));
   Diagnostic diagnostic(DiagnosticKind::UnknownName, need.span, {"feature of spectrum `" + spectrum.name + "`", std::string(need.text)});
-  const std::string guess = closest(need.text, names);
-  if (!guess.empty()) diagnostic.fix(need.span, guess);
+  const Guess guess = closest(need.text, names);
+  suggest(diagnostic, need.span, guess);
   checker.diagnostics.report(std::move(diagnostic));
 }
 

@@ -49,7 +49,9 @@ void print_fix(Printer& printer, const FixIt& fix) {
   const SourceFile* file = file_of(printer.files, fix.span);
   if (!file) return;
   const std::string old = file->text.substr(fix.span.begin, fix.span.end - fix.span.begin);
-  if (old.empty()) printer.out += fmt::format("       = fix: insert `{}`\n", fix.text);
+  const size_t shown = fix.text.find_first_not_of("\n \t");
+  const bool line = fix.text.starts_with("\n") && shown != std::string::npos;
+  if (old.empty()) printer.out += fmt::format("       = fix: insert {}`{}`\n", line ? "a line " : "", line ? fix.text.substr(shown) : fix.text);
   if (!old.empty() && fix.text.empty()) printer.out += fmt::format("       = fix: remove `{}`\n", old);
   if (!old.empty() && !fix.text.empty()) printer.out += fmt::format("       = fix: write `{}` instead of `{}`\n", fix.text, old);
 }
@@ -96,7 +98,14 @@ nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagn
 
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour) {
   Printer printer{files, colour, {}};
-  for (const Diagnostic& diagnostic : diagnostics.rows()) print_one(printer, diagnostic);
+  constexpr size_t kMostErrors = 100;  // of a text for people; the forms for programs have all
+  size_t errors = 0;
+  for (const Diagnostic& diagnostic : diagnostics.rows()) {
+    const bool is_error = row(diagnostic.kind).severity == Severity::error;
+    if (is_error && errors++ >= kMostErrors) continue;
+    print_one(printer, diagnostic);
+  }
+  if (errors > kMostErrors) printer.out += fmt::format("... and {} more errors\n", errors - kMostErrors);
   return printer.out;
 }
 

@@ -49,8 +49,19 @@ std::string stem(const std::string& path) {
 
 std::optional<uint32_t> load(Loader& loader, const std::string& path, Span span, uint32_t depth);
 
+// Of a path that leads out of the folder, or nowhere.
+const char* why_no_file(std::string_view path) {
+  if (path.empty()) return "the path is empty";
+  const bool stays = path.front() != '/' && path.find("..") == std::string_view::npos;
+  return stays && path.find_first_not_of("./") == std::string_view::npos ? "it is a folder" : nullptr;
+}
+
 std::optional<uint32_t> load_import(Loader& loader, const ast::Import& node, uint32_t depth) {
   const auto path = join_inside("", node.path);
+  if (const char* why = path ? nullptr : why_no_file(node.path)) {
+    loader.diagnostics.report(DiagnosticKind::FileNotReadable, node.span, {std::string(node.path), why});
+    return std::nullopt;
+  }
   if (!path) {
     loader.diagnostics.report(DiagnosticKind::ImportEscapes, node.span, {std::string(node.path)});
     return std::nullopt;

@@ -147,6 +147,15 @@ TokenKind finish_name(Lexer& lexer, uint32_t begin) {
   return TokenKind::invalid;
 }
 
+// As C has them: passed over whole, so that what follows is still read.
+void skip_foreign_comment(Lexer& lexer) {
+  const uint32_t begin = lexer.at;
+  const size_t end = lexer.text.find("*/", begin + 2);
+  lexer.at = static_cast<uint32_t>(end == std::string_view::npos ? lexer.text.size() : end + 2);
+  const Span opening{lexer.file, begin, begin + 2};
+  lexer.diagnostics.report(DiagnosticKind::InvalidCharacter, opening, {"/*"}).note(DiagnosticKind::DidYouMean, opening, {"//"});
+}
+
 TokenKind take_token(Lexer& lexer) {
   const uint32_t begin = lexer.at;
   const char c = lexer.peek();
@@ -196,6 +205,10 @@ Tokens lex(FileId file, std::string_view text, Diagnostics& diagnostics) {
     const bool starts_line = skip_blanks(lexer);
     const uint32_t begin = lexer.at;
     if (begin >= text.size()) break;
+    if (text.substr(begin, 2) == "/*") {
+      skip_foreign_comment(lexer);
+      continue;
+    }
     const TokenKind kind = take_token(lexer);
     lexer.tokens.push_back({kind, starts_line, begin, lexer.at});
   }

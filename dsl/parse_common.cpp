@@ -28,43 +28,15 @@ std::string found(const Parser& parser) {
   return token.kind == TokenKind::string ? std::string(shown) : "`" + std::string(shown) + "`";
 }
 
-// Insertions, deletions, substitutions and swaps of neighbours count one each (optimal string alignment).
-uint32_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<uint32_t>> cost(a.size() + 1, std::vector<uint32_t>(b.size() + 1));
-  for (uint32_t i = 0; i <= a.size(); ++i) cost[i][0] = i;
-  for (uint32_t j = 0; j <= b.size(); ++j) cost[0][j] = j;
-  for (size_t i = 1; i <= a.size(); ++i)
-    for (size_t j = 1; j <= b.size(); ++j) {
-      cost[i][j] = std::min({cost[i - 1][j] + 1, cost[i][j - 1] + 1, cost[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 1);
-    }
-  return cost[a.size()][b.size()];
-}
-
 }  // namespace
 
 bool begins_declaration(std::string_view word) { return contains(kDeclarations, word); }
 bool begins_item(std::string_view word) { return contains(kItems, word); }
 bool begins_statement(std::string_view word) { return contains(kStatements, word); }
 
-std::string closest_declaration(std::string_view word) { return closest(word, {std::begin(kDeclarations), std::end(kDeclarations)}); }
-std::string closest_item(std::string_view word) { return closest(word, {std::begin(kItems), std::end(kItems)}); }
-std::string closest_statement(std::string_view word) { return closest(word, {std::begin(kStatements), std::end(kStatements)}); }
-
-std::string closest(std::string_view word, const std::vector<std::string_view>& candidates) {
-  constexpr size_t kLongest = 64;
-  if (word.size() > kLongest) return {};
-  uint32_t best = static_cast<uint32_t>(std::max<size_t>(1, word.size() / 3)) + 1;
-  std::string_view found_word;
-  for (const std::string_view candidate : candidates) {
-    if (candidate.size() > word.size() + best || candidate.size() + best < word.size() || candidate == word) continue;
-    const uint32_t distance = edit_distance(word, candidate);
-    const bool as_near = distance == best && !found_word.empty() && candidate.size() > found_word.size();  // left out is likelier than too much
-    if (distance < best || as_near) best = distance, found_word = candidate;
-  }
-  return std::string(found_word);
-}
+Guess closest_declaration(std::string_view word) { return closest(word, {std::begin(kDeclarations), std::end(kDeclarations)}); }
+Guess closest_item(std::string_view word) { return closest(word, {std::begin(kItems), std::end(kItems)}); }
+Guess closest_statement(std::string_view word) { return closest(word, {std::begin(kStatements), std::end(kStatements)}); }
 
 Span Parser::since(uint32_t begin) const { return {file, begin, std::max(begin, previous_end())}; }
 
@@ -116,8 +88,8 @@ ast::Name Parser::expect_one_of(const char* what, Words words) {
     return {{}, here()};
   }
   Diagnostic diagnostic(DiagnosticKind::UnexpectedToken, here(), {what, found(*this)});
-  const std::string guess = closest(word(), words);
-  if (!guess.empty()) diagnostic.fix(here(), guess);
+  const Guess guess = closest(word(), words);
+  suggest(diagnostic, here(), guess);
   complain(std::move(diagnostic));
   const ast::Name name{{}, here()};
   take();
@@ -210,6 +182,18 @@ bool open_block(Parser& parser) {
   return follows;
 }
 
+void close_list(Parser& parser, TokenKind close) {
+  if (!parser.silent && !parser.accept(close)) parser.expected(std::string("`,` or ") + describe(close));
+}
+
+// As far in as the line that opens the block.
+std::string indentation(const Parser& parser, Span open) {
+  const size_t line = parser.text.rfind('\n', open.begin);
+  const size_t begin = line == std::string_view::npos ? 0 : line + 1;
+  const size_t word = parser.text.find_first_not_of(" \t", begin);
+  return std::string(parser.text.substr(begin, word - begin));
+}
+
 void close_block(Parser& parser, Span open) {
   if (parser.accept(TokenKind::right_brace)) return;
   const bool known = parser.lost_structure;
@@ -218,7 +202,7 @@ void close_block(Parser& parser, Span open) {
   if (parser.at == 0) return;
   const Token& last = parser.tokens[parser.at - 1];
   Diagnostic diagnostic(DiagnosticKind::BlockNotClosed, parser.span(last));
-  diagnostic.note(DiagnosticKind::BlockOpensHere, open).fix({parser.file, last.end, last.end}, "\n}");
+  diagnostic.note(DiagnosticKind::BlockOpensHere, open).fix({parser.file, last.end, last.end}, "\n" + indentation(parser, open) + "}");
   parser.complain(std::move(diagnostic));
   parser.silent = false;
 }

@@ -70,7 +70,7 @@ Expr parse_list(Parser& parser, TokenKind close) {
   do {
     list.operands.push_back(parse_expression(parser));
   } while (!parser.silent && parser.accept(TokenKind::comma));
-  parser.expect(close);
+  close_list(parser, close);
   list.span = parser.since(open.begin);
   if (close == TokenKind::right_paren && list.operands.size() == 1) {
     Expr inner = std::move(list.operands[0]);
@@ -170,18 +170,17 @@ Expr binary(Parser& parser, ExprKind kind, Expr left, Expr right) {
   return expr;
 }
 
-// Long sums nest to the left; the limit bounds the depth of the tree that recursive readers walk.
-bool too_long(Parser& parser, uint32_t& length) {
-  if (++length <= kMaxNesting) return false;
-  parser.complain({DiagnosticKind::NestingTooDeep, parser.here(), {std::to_string(kMaxNesting)}});
+bool too_long(Parser& parser) {
+  if (++parser.operators <= kMaxOperators) return false;
+  parser.complain({DiagnosticKind::TooManyOperators, parser.here(), {std::to_string(kMaxOperators)}});
   return true;
 }
 
 Expr parse_term(Parser& parser, const char* what) {
   Expr left = parse_factor(parser, what);
   const auto joins = [&] { return parser.is(TokenKind::star) || parser.is(TokenKind::slash) || parser.is(TokenKind::percent); };
-  for (uint32_t length = 0; !parser.silent && joins();) {
-    if (too_long(parser, length)) break;
+  while (!parser.silent && joins()) {
+    if (too_long(parser)) break;
     const ExprKind kind = parser.is(TokenKind::star) ? ExprKind::mul : parser.is(TokenKind::slash) ? ExprKind::div : ExprKind::mod;
     parser.take();
     left = binary(parser, kind, std::move(left), parse_factor(parser, "an operand"));
@@ -200,7 +199,7 @@ std::vector<Expr> parse_arguments(Parser& parser) {
   do {
     arguments.push_back(parse_expression(parser));
   } while (!parser.silent && parser.accept(TokenKind::comma));
-  parser.expect(TokenKind::right_paren);
+  close_list(parser, TokenKind::right_paren);
   return arguments;
 }
 
@@ -216,13 +215,16 @@ std::vector<Expr> parse_indices(Parser& parser) {
 Expr parse_expression(Parser& parser, const char* what) {
   const Nested nested(parser);
   if (!nested.fits) return {};
+  if (parser.expressions == 0) parser.operators = 0;
+  ++parser.expressions;
   Expr left = parse_term(parser, what);
-  for (uint32_t length = 0; !parser.silent && (parser.is(TokenKind::plus) || parser.is(TokenKind::minus));) {
-    if (too_long(parser, length)) break;
+  while (!parser.silent && (parser.is(TokenKind::plus) || parser.is(TokenKind::minus))) {
+    if (too_long(parser)) break;
     const ExprKind kind = parser.is(TokenKind::plus) ? ExprKind::add : ExprKind::sub;
     parser.take();
     left = binary(parser, kind, std::move(left), parse_term(parser, "an operand"));
   }
+  --parser.expressions;
   return left;
 }
 

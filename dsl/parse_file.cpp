@@ -191,7 +191,7 @@ void parse_parameters(Parser& parser, GraphDeclaration& graph) {
   do {
     graph.parameters.push_back(parse_parameter(parser));
   } while (!parser.silent && parser.accept(TokenKind::comma));
-  if (!parser.silent) parser.expect(TokenKind::right_paren);
+  close_list(parser, TokenKind::right_paren);
 }
 
 For parse_for(Parser& parser) {
@@ -273,7 +273,7 @@ void parse_use_arguments(Parser& parser, Use& use) {
     use.directions.push_back(directed ? parser.take_name() : Name{});
     use.arguments.push_back(parse_expression(parser, "an argument"));
   } while (!parser.silent && parser.accept(TokenKind::comma));
-  if (!parser.silent) parser.expect(TokenKind::right_paren);
+  close_list(parser, TokenKind::right_paren);
 }
 
 Use parse_use(Parser& parser) {
@@ -338,8 +338,8 @@ bool rejoin_pass(Parser& parser, std::vector<Item>& items) {
 void complain_about_item(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("`image`, `buffer`, `pass` or another item of a graph");
   Diagnostic diagnostic(DiagnosticKind::UnknownItem, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest_item(parser.word());
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  const Guess guess = closest_item(parser.word());
+  suggest(diagnostic, parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
 
@@ -389,8 +389,8 @@ bool rejoin_graph(Parser& parser, File& file) {
 void complain_about_declaration(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a declaration");
   Diagnostic diagnostic(DiagnosticKind::UnknownDeclaration, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest_declaration(parser.word());
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  const Guess guess = closest_declaration(parser.word());
+  suggest(diagnostic, parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
 

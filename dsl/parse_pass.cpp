@@ -261,8 +261,8 @@ ast::Statement parse_other(Parser& parser) {
 void complain_about_statement(Parser& parser) {
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("a statement");
   Diagnostic diagnostic(DiagnosticKind::UnknownStatement, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest_statement(parser.word());
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  const Guess guess = closest_statement(parser.word());
+  suggest(diagnostic, parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
 
@@ -294,8 +294,8 @@ void complain_about_rest(Parser& parser, const std::vector<std::string_view>& op
   if (parser.is(TokenKind::identifier) && begins_statement(parser.word())) return;
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("the end of the statement");
   Diagnostic diagnostic(DiagnosticKind::UnknownOption, parser.here(), {std::string(parser.word().substr(0, 40))});
-  const std::string guess = closest(parser.word(), options);
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  const Guess guess = closest(parser.word(), options);
+  suggest(diagnostic, parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
 

@@ -53,8 +53,8 @@ void complain_about_setting(Parser& parser) {
   std::vector<std::string_view> words = {"init", "ready", "written", "after"};
   for (const SettingShape& shape : kResourceSettings) words.push_back(shape.word);
   Diagnostic diagnostic(DiagnosticKind::UnknownSetting, parser.here(), {std::string(parser.word().substr(0, 40)), "a resource"});
-  const std::string guess = closest(parser.word(), words);
-  if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+  const Guess guess = closest(parser.word(), words);
+  suggest(diagnostic, parser.here(), guess);
   parser.complain(std::move(diagnostic));
 }
 

@@ -70,8 +70,8 @@ std::vector<ast::Setting> parse_settings(Parser& parser, std::initializer_list<S
     std::vector<std::string_view> words;
     for (const SettingShape& known : shapes) words.push_back(known.word);
     Diagnostic diagnostic(DiagnosticKind::UnknownSetting, parser.here(), {std::string(parser.word().substr(0, 40)), what});
-    const std::string guess = closest(parser.word(), words);
-    if (!guess.empty()) diagnostic.fix(parser.here(), guess);
+    const Guess guess = closest(parser.word(), words);
+    suggest(diagnostic, parser.here(), guess);
     parser.complain(std::move(diagnostic));
   });
   return settings;

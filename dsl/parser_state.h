@@ -15,7 +15,8 @@
 
 namespace rg::dsl {
 
-constexpr uint32_t kMaxNesting = 100;  // of expressions and blocks; bounds the stack
+constexpr uint32_t kMaxNesting = 100;     // of expressions and blocks; bounds the stack
+constexpr uint32_t kMaxOperators = 1000;  // of one expression; sums nest to the left in the tree, which recursive readers walk
 
 struct Parser {
   FileId file;
@@ -24,6 +25,8 @@ struct Parser {
   Diagnostics& diagnostics;
   size_t at = 0;
   uint32_t nesting = 0;
+  uint32_t expressions = 0;  // open ones
+  uint32_t operators = 0;    // of the outermost expression
   bool silent = false;
   bool any_error = false;
   bool lost_names = false;      // a declaration was skipped
@@ -66,9 +69,9 @@ struct Nested {  // counts one level of nesting; complains when it is too deep
 bool begins_declaration(std::string_view word);
 bool begins_item(std::string_view word);
 bool begins_statement(std::string_view word);
-std::string closest_declaration(std::string_view word);  // did you mean; empty: nothing near
-std::string closest_item(std::string_view word);
-std::string closest_statement(std::string_view word);
+Guess closest_declaration(std::string_view word);  // did you mean
+Guess closest_item(std::string_view word);
+Guess closest_statement(std::string_view word);
 
 // Skips to the next token that can begin something at this level, or to the `}` that closes it.
 enum class Level : uint8_t { file, graph, pass, fields };
@@ -78,6 +81,7 @@ void resynchronise(Parser& parser, Level level);
 template <class One>
 void parse_block(Parser& parser, Level level, One one);
 
+void close_list(Parser& parser, TokenKind close);  // of elements with commas between them
 bool starts_outer(const Parser& parser, Level level);
 bool open_block(Parser& parser);
 void close_block(Parser& parser, Span open);

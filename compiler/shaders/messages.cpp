@@ -76,6 +76,10 @@ bool report_undeclared(const PassContext& context, const ShaderMessage& message,
 
 bool report_local_size(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
   if (!contains(message.text, "local_size") || !contains(message.text, "cannot change previously set size")) return false;
+  const bool told = std::any_of(diagnostics.rows().begin(), diagnostics.rows().end(), [&](const dsl::Diagnostic& each) {
+    return each.kind == DiagnosticKind::LocalSizeInShader && each.arguments[0] == context.pass.name;
+  });
+  if (told) return true;  // a message for each axis
   diagnostics.report(DiagnosticKind::LocalSizeInShader, places.line(message.file, message.line), {context.pass.name})
       .note(DiagnosticKind::GroupOfPass, context.pass.span);
   return true;

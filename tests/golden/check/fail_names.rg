@@ -15,6 +15,7 @@ struct View { a: f32  a: f32  gl_position: vec4  up: vec33  far: f32[0]  open: f
 //~^^^ error[RG0213]: `gl_position` is reserved in GLSL
 //~^^^^ error[RG0218]: 0 is not between 1 and 16777216
 //~^^^^^ note[RG0202]: `a` is declared here
+//~^^^^^^ note[RG0605]: did you mean `vec3`?
 struct Empty { }  //~ error[RG0211]: struct `Empty` has no fields
 struct Loop { inner: Loop }  //~ error[RG0208]: `Loop` is declared by means of itself
 struct Huge { a: mat4[16777216]  b: mat4[16777216]  c: mat4[16777216] }  //~ error[RG0212]: struct `Huge` is larger than 2 GiB

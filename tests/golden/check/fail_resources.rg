@@ -2,6 +2,7 @@ module resources
 target vulkan 1.1  //~ error[RG0009]: the targets are `vulkan 1.3` and `vulkan 1.4`, not 1.1
 graph g(surface s: rgba8 4x4) {
   image a : rgba7 4x4  //~ error[RG0244]: there is no format called `rgba7`
+//~^ note[RG0605]: did you mean `rgba8`?
   image b : rgba8 [0, 4]  //~ error[RG0315]: image `b` is 0 texels along an axis; the limits are 1 and 65536
   image c : rgba8 70000x4  //~ error[RG0315]: image `c` is 70000 texels along an axis; the limits are 1 and 65536
   image d : rgba8 4x4 3d  //~ error[RG0319]: image `d` has 3 axes by its dimension, 2 by its size

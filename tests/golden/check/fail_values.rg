@@ -6,6 +6,7 @@ const D = 4x4 * 4x4x4  //~ error[RG0220]: a size of 2 axes does not go with one 
 const E = sqrt(2)  //~ error[RG0224]: there is no function called `sqrt`
 const F = min(1)  //~ error[RG0225]: `min` does not take 1 arguments
 const G = good.w  //~ error[RG0223]: there is no part called `w`
+//~^ note[RG0605]: did you mean `x` or `y` or `z`?
 const H = good * 0.5  //~ error[RG0219]: expected whole numbers, because extents are whole numbers
 const I = ceil(good)  //~ error[RG0219]: expected a quotient, such as `ceil(view / 8)`
 extent good = runtime(4, 4)

@@ -16,7 +16,7 @@ graph g(surface s: rgba8 4x4 after copy_src) {
   pass all   : raster { color known.mip(0).slices(0, 4)  draw host }
   pass start : transfer { clear open 0 }
   pass some  : raster { color open.slices(1, 3) clear 2  draw host }
-  pass bits  : raster { fullscreen "x.frag"  color out = flat.view(rgba8) }
+  pass bits  : raster { fullscreen "x.frag"  color seen = flat.view(rgba8) }
   pass views : raster { multiview  color eyes clear 0  draw host }
   pass tests : raster { state test  depth both clear 1  stencil both clear 0  draw host }
   for i in 0..4 { pass quarter[i] : compute { write words.bytes(i * n * 4, n * 4) as storage } }
