@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/command_line.h"
@@ -23,6 +24,9 @@ int main(int argc, char** argv) {
   install_handlers();
   try {
     return rg::commands::run_command_line(argc, argv);
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fprintf(stderr, "rgc: cannot use `%s`: %s\n", error.path1().c_str(), error.code().message().c_str());
+    return rg::commands::exit_input_wrong;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rgc: internal error: %s\n", error.what());
     return rg::commands::exit_our_fault;

@@ -51,13 +51,18 @@ std::optional<std::string> read_all(int file, size_t bytes, std::string& why) {
   return text;
 }
 
-bool inside(const fs::path& folder, const fs::path& path) {
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder.empty() ? fs::current_path() : fs::absolute(folder), error);
-  const fs::path full = fs::weakly_canonical(fs::absolute(path), error);
-  if (error) return false;
-  return std::mismatch(root.begin(), root.end(), full.begin(), full.end()).first == root.end();
+// What is wrong with a path that has to lie in `folder`, symbolic links followed; empty: nothing, or nothing that opening it would not say.
+std::string why_not_inside(const fs::path& folder, const fs::path& path, const char* outside) {
+  std::error_code error, root_error;
+  const auto full = [](const fs::path& each, std::error_code& failed) { return fs::weakly_canonical(each.empty() ? fs::path(".") : each, failed); };
+  const fs::path root = full(fs::absolute(folder.empty() ? fs::path(".") : folder, root_error), root_error);
+  const fs::path whole = full(fs::absolute(path.empty() ? fs::path(".") : path, error), error);
+  if (error == std::errc::too_many_symbolic_link_levels) return "it is a link that leads back to itself";
+  if (root_error || error) return reason((error ? error : root_error).value());
+  return std::mismatch(root.begin(), root.end(), whole.begin(), whole.end()).first == root.end() ? "" : outside;
 }
+
+bool inside(const fs::path& folder, const fs::path& path) { return why_not_inside(folder, path, "outside").empty(); }
 
 // A path that a manifest or a generator may name: relative, and not upwards.
 bool is_plain(const fs::path& path) {
@@ -114,8 +119,8 @@ bool prepare_changed(const fs::path& folder, const std::vector<compiler::Generat
       diagnostics.report(DiagnosticKind::OutputNotOurs, {}, {path.string()});
       return false;
     }
-    if (!inside(folder, path.parent_path())) {
-      diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {path.string(), "it leads out of the output folder", "nothing was changed"});
+    if (const std::string why = why_not_inside(folder, path.parent_path(), "it leads out of the output folder"); !why.empty()) {
+      diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {path.string(), why, "nothing was changed"});
       return false;
     }
     if (!replacements.prepare(path, file.text, diagnostics)) return false;
@@ -158,20 +163,15 @@ std::optional<std::string> read_file(const std::string& path, std::string& why) 
 dsl::ReadSource reader_for(const std::string& root_path) {
   const fs::path folder = fs::path(root_path).parent_path();
   return [=](const std::string& path, std::string& why) -> std::optional<std::string> {
-    if (path != root_path && !inside(folder, path)) {
-      std::error_code error;
-      fs::weakly_canonical(fs::absolute(path), error);
-      const bool loops = error == std::errc::too_many_symbolic_link_levels;
-      why = loops ? "it is a link that leads back to itself" : "it is outside the folder of `" + root_path + "`";
-      return std::nullopt;
-    }
-    return read_file(path, why);
+    if (path != root_path) why = why_not_inside(folder, path, ("it is outside the folder of `" + root_path + "`").c_str());
+    return path != root_path && !why.empty() ? std::nullopt : read_file(path, why);
   };
 }
 
 std::optional<Written> write_output(const std::string& folder_name, const std::vector<compiler::GeneratedFile>& files,
                                     dsl::Diagnostics& diagnostics, const std::vector<compiler::GeneratedFile>& others) {
   const fs::path folder = folder_name;
+  if (folder.empty()) return diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {"", "the name is empty", "nothing was changed"}), std::nullopt;
   const std::set<std::string> manifest = read_manifest(folder);
   FileReplacements replacements;
   Written written;

@@ -43,8 +43,9 @@ int write_new(const fs::path& path, const std::string& text) {
   return file.close() ? 0 : errno;
 }
 
-fs::path beside(const fs::path& path, const char* ending) {
-  return path.parent_path() / ("." + path.filename().string() + "." + std::to_string(::getpid()) + ending);
+// Short, whatever the file is called: a name has a limit.
+fs::path beside(const fs::path& path, size_t number, const char* ending) {
+  return path.parent_path() / (".rgc." + std::to_string(::getpid()) + "." + std::to_string(number) + ending);
 }
 
 }  // namespace
@@ -67,6 +68,10 @@ std::string reason(int error) {
       return "a file size limit is reached";
     case EROFS:
       return "the file system is read-only";
+    case ENAMETOOLONG:
+      return "a name in the path is longer than the file system takes";
+    case ELOOP:
+      return "symbolic links lead in a circle";
     default:
       return std::strerror(error);
   }
@@ -90,9 +95,11 @@ int FileReplacements::make_folder(const fs::path& folder) {
 }
 
 bool FileReplacements::prepare(const fs::path& path, const std::string& text, dsl::Diagnostics& diagnostics) {
-  const fs::path temporary = beside(path, ".tmp");
+  const fs::path temporary = beside(path, files_.size(), ".tmp");
+  std::error_code error;
   int failed = make_folder(path.parent_path());
-  if (!failed && fs::is_directory(path)) failed = EISDIR;
+  if (!failed && fs::is_directory(path, error)) failed = EISDIR;
+  if (error && error.value() != ENOENT) failed = error.value();
   if (!failed) {
     files_.push_back({path, temporary, {}, File::Before::nothing});
     failed = write_new(temporary, text);
@@ -118,7 +125,7 @@ std::string FileReplacements::undo(size_t done) {
 bool FileReplacements::commit(dsl::Diagnostics& diagnostics) {
   for (size_t i = 0; i < files_.size(); ++i) {
     File& file = files_[i];
-    const fs::path old = beside(file.path, ".old");
+    const fs::path old = beside(file.path, i, ".old");
     ::unlink(old.c_str());
     if (::link(file.path.c_str(), old.c_str()) == 0)
       file.old = old, file.before = File::Before::kept;
