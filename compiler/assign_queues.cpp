@@ -35,6 +35,16 @@ bool clears_depth(const Frame& frame, const dsl::Pass& pass) {
   });
 }
 
+// The engine hands the image over in the layout in which everybody uses it, and takes it back so.
+bool keeps_layout(const Frame& frame, const std::vector<const Use*>& uses) {
+  const Cell& cell = frame.cells[uses.front()->cell];
+  const dsl::Resource& image = frame.graph->resources.rows[cell.resource];
+  if (image.lifetime != dsl::Lifetime::imported || image.before.role == dsl::Role::undefined) return false;
+  const Layout layout = effect_of(image.before, cell.range.aspects).layout;
+  if (image.after.role != dsl::Role::undefined && effect_of(image.after, cell.range.aspects).layout != layout) return false;
+  return std::all_of(uses.begin(), uses.end(), [&](const Use* each) { return each->effect.layout == layout; });
+}
+
 class Eligibility {
  public:
   Eligibility(const Frame& frame, const Schedule& one_queue, const PlanOptions& options)
@@ -65,9 +75,10 @@ class Eligibility {
   // Read where it is ready to be read, and written by nobody.
   bool is_ready(const Use& use) const {
     const dsl::Resource& resource = frame_.resource_of(use.cell);
-    if (resource.kind == dsl::ResourceKind::image || resource.before.role == dsl::Role::undefined) return false;
+    if (resource.before.role == dsl::Role::undefined) return false;
     const Effect before = effect_of(resource.before, 0), after = effect_of(resource.after, 0);
     const auto& all = uses_[use.cell];
+    if (resource.kind == dsl::ResourceKind::image && !keeps_layout(frame_, all)) return false;
     if (before.writes || after.writes || std::any_of(all.begin(), all.end(), [](const Use* each) { return each->writes(); })) return false;
     const bool left_so = resource.after.role == dsl::Role::undefined || (use.effect.stages() & ~with_earlier(after.stages())) == 0;
     return left_so && (use.effect.reads & ~before.reads) == 0 && (use.effect.read_stages & ~before.read_stages) == 0;
@@ -91,10 +102,12 @@ class LayoutGuard {
  public:
   LayoutGuard(const Frame& frame, const Schedule& one_queue) : frame_(frame) {
     std::vector<std::vector<std::pair<uint32_t, const Use*>>> by_cell(frame.cells.size());
+    std::vector<std::vector<const Use*>> uses(frame.cells.size());
     for (uint32_t node = 0; node < one_queue.order.size(); ++node)
-      for (const Use& use : frame.uses_of(one_queue.order[node])) by_cell[use.cell].push_back({node, &use});
+      for (const Use& use : frame.uses_of(one_queue.order[node])) by_cell[use.cell].push_back({node, &use}), uses[use.cell].push_back(&use);
     for (uint32_t cell = 0; cell < frame.cells.size(); ++cell)
-      if (frame.resource_of(cell).kind == dsl::ResourceKind::image && by_cell[cell].size() > 1) cells_.push_back({cell, std::move(by_cell[cell])});
+      if (frame.resource_of(cell).kind == dsl::ResourceKind::image && by_cell[cell].size() > 1 && !keeps_layout(frame, uses[cell]))
+        cells_.push_back({cell, std::move(by_cell[cell])});
   }
 
   // True if somebody was sent home.

@@ -5,6 +5,13 @@
 
 namespace rg {
 
+PlanData::PlanData() = default;
+PlanData::PlanData(const PlanData&) = default;
+PlanData::PlanData(PlanData&&) noexcept = default;
+PlanData& PlanData::operator=(const PlanData&) = default;
+PlanData& PlanData::operator=(PlanData&&) noexcept = default;
+PlanData::~PlanData() = default;
+
 Plan PlanData::view() const {
   Plan p;
   p.version = version, p.name = name, p.variant = variant, p.variant_count = variant_count, p.variant_name = variant_name;

@@ -13,6 +13,14 @@ namespace rg {
 // Same fields as Plan, as vectors. Copyable; strings are interned in a shared-nothing deque that is never shrunk, so a copy
 // keeps views into the *source's* pool: keep the original alive, or call `intern` again.
 struct PlanData {
+  // Not inline: in each file that includes this, copying so many tables would take long to compile.
+  PlanData();
+  PlanData(const PlanData&);
+  PlanData(PlanData&&) noexcept;
+  PlanData& operator=(const PlanData&);
+  PlanData& operator=(PlanData&&) noexcept;
+  ~PlanData();
+
   uint32_t version = kPlanVersion;
   std::string_view name;
   uint32_t variant = 0, variant_count = 1;

@@ -85,6 +85,22 @@ std::vector<int64_t> flatten(const Program& program, int64_t (Extent::*values)[3
 
 }  // namespace
 
+Graph::Graph() = default;
+Graph::Graph(const Graph&) = default;
+Graph::Graph(Graph&&) noexcept = default;
+Graph& Graph::operator=(const Graph&) = default;
+Graph& Graph::operator=(Graph&&) noexcept = default;
+Graph::~Graph() = default;
+bool Graph::operator==(const Graph&) const = default;
+
+Program::Program() = default;
+Program::Program(const Program&) = default;
+Program::Program(Program&&) noexcept = default;
+Program& Program::operator=(const Program&) = default;
+Program& Program::operator=(Program&&) noexcept = default;
+Program::~Program() = default;
+bool Program::operator==(const Program&) const = default;
+
 int64_t evaluate(const Program& program, ExprId id, const std::vector<int64_t>& extent_values) {
   RG_CHECK(id.value < program.exprs.size(), "evaluate() needs a valid expression");
   if (program.exprs[id].op == ExprOp::constant) return program.exprs[id].value;

@@ -389,7 +389,14 @@ struct Graph {
   std::vector<Assertion> assertions;
   Table<FusionId, Fusion> fusions;
   Span span;
-  friend bool operator==(const Graph&, const Graph&) = default;
+  // Not inline: in each file that includes this, copying so many tables would take long to compile.
+  Graph();
+  Graph(const Graph&);
+  Graph(Graph&&) noexcept;
+  Graph& operator=(const Graph&);
+  Graph& operator=(Graph&&) noexcept;
+  ~Graph();
+  bool operator==(const Graph&) const;
 };
 
 // The format in which the pass sees the image.
@@ -473,7 +480,14 @@ struct Program {
   std::vector<Constant> constants;  // public integer constants, also given to shaders and C++
   Table<GraphId, Graph> graphs;
   std::vector<Profile> profiles = {};  // every one must be able to run every graph
-  friend bool operator==(const Program&, const Program&) = default;
+  // Not inline: in each file that includes this, copying so many tables would take long to compile.
+  Program();
+  Program(const Program&);
+  Program(Program&&) noexcept;
+  Program& operator=(const Program&);
+  Program& operator=(Program&&) noexcept;
+  ~Program();
+  bool operator==(const Program&) const;
 };
 
 // Evaluates `id` for the extents given as 3 values each, in the order of Program::extents. O(nodes below id).

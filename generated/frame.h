@@ -49,9 +49,6 @@ inline constexpr int32_t LIGHT_PATH_SLIDE = 3;
 inline constexpr int32_t LIGHT_PATH_ALL = 4;
 inline constexpr int32_t FOG_CLUSTER = 4;
 inline constexpr int32_t FOG_CASCADES = 4;
-inline constexpr int32_t FOG_SUN = 1;
-inline constexpr int32_t FOG_LIGHTS = 2;
-inline constexpr int32_t FOG_AMBIENT = 4;
 inline constexpr int32_t BLOOM_MIPS = 6;
 inline constexpr int32_t HISTOGRAM_BINS = 128;
 inline constexpr int32_t DEBUG_FINAL = 0;
@@ -332,13 +329,13 @@ struct Fog {  // passes/fog/fog.rg:17
   float thinning = 0;
   float phase = 0;
   float blend = 0;
-  uint32_t terms = 0;
+  uint32_t padding_0[1] = {};
   rg::vec3 albedo = {};
   uint32_t volume_count = 0;
   rg::vec3 jitter = {};
   float spare = 0;
   rg::vec3 count = {};
-  uint32_t padding_0[1] = {};
+  uint32_t padding_1[1] = {};
 };
 static_assert(sizeof(Fog) == 112);
 static_assert(offsetof(Fog, previous_ends) == 16);
@@ -349,7 +346,6 @@ static_assert(offsetof(Fog, ground) == 44);
 static_assert(offsetof(Fog, thinning) == 48);
 static_assert(offsetof(Fog, phase) == 52);
 static_assert(offsetof(Fog, blend) == 56);
-static_assert(offsetof(Fog, terms) == 60);
 static_assert(offsetof(Fog, albedo) == 64);
 static_assert(offsetof(Fog, volume_count) == 76);
 static_assert(offsetof(Fog, jitter) == 80);
@@ -402,6 +398,9 @@ struct Conditions {
 
 // Which variants of shaders this frame runs, and which passes.
 struct Features {
+  bool fog_sun = false;  // passes/fog/fog.rg:13
+  bool fog_lights = false;  // passes/fog/fog.rg:14
+  bool fog_ambient = false;  // passes/fog/fog.rg:15
   bool holograms = false;  // passes.rg:18
 };
 
@@ -437,7 +436,7 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 64, .shaders = 42, .pipelines = 59, .barrier_groups = 29, .image_barriers = 62, .buffer_barriers = 27, .batches = 1,
+    {.passes = 64, .shaders = 49, .pipelines = 66, .barrier_groups = 29, .image_barriers = 62, .buffer_barriers = 27, .batches = 1,
      .heap_bytes = 19117312, .unaliased_bytes = 21207040, .lower_bound_bytes = 19116288};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
@@ -542,7 +541,7 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
     {.instructions = 167, .alu = 47, .loads = 9, .branches = 7, .live_scalars = 41},  // gbuffer_props
     {},  // deferred_light_reset
-    {.instructions = 1765, .alu = 673, .samples = 12, .loads = 38, .stores = 3, .branches = 113, .live_scalars = 115},  // froxel_fog_merged
+    {.instructions = 1731, .alu = 667, .samples = 12, .loads = 37, .stores = 3, .branches = 110, .live_scalars = 118},  // froxel_fog_merged
     {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
     // light_cull
     {.instructions = 421, .alu = 161, .samples = 1, .loads = 9, .stores = 2, .atomics = 2, .branches = 25, .shared_bytes = 128, .live_scalars = 65},

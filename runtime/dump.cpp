@@ -87,8 +87,7 @@ void record_barrier(const FrameRecording& r, VkPipelineStageFlags2 src, VkAccess
   r.state.context.vk().CmdPipelineBarrier2(r.commands, &info);
 }
 
-void copy_layer(const FrameRecording& r, VkImage image, uint32_t layer) {
-  const DumpRequest& dump = r.state.dump;
+void copy_layer(const FrameRecording& r, const DumpRequest& dump, VkImage image, uint32_t layer) {
   const Resource& resource = r.state.context.plan.resources[dump.resource];
   const VkImageLayout layout = dump.layouts[layer];
   if (layout == VK_IMAGE_LAYOUT_UNDEFINED) return;
@@ -103,8 +102,7 @@ void copy_layer(const FrameRecording& r, VkImage image, uint32_t layer) {
   record_barrier(r, image_barrier(image, aspect, dump.mip, layer, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout));
 }
 
-void copy_buffer(const FrameRecording& r) {
-  const DumpRequest& dump = r.state.dump;
+void copy_buffer(const FrameRecording& r, const DumpRequest& dump) {
   record_barrier(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
   const BufferSpan span = buffer_at(*r.state.sized, r.state.imports, r.state.context.plan, {dump.resource, 0}, {0, dump.bytes}, r.frame);
   const VkBufferCopy copy{span.offset, 0, dump.bytes};
@@ -112,22 +110,25 @@ void copy_buffer(const FrameRecording& r) {
   record_barrier(r, VK_PIPELINE_STAGE_2_COPY_BIT, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0);
 }
 
-}  // namespace
-
-void record_dump(FrameRecording& r, Index) {
-  const DumpRequest& dump = r.state.dump;
+void record_dump(const FrameRecording& r, const DumpRequest& dump) {
   if (r.state.context.plan.resources[dump.resource].kind == ResourceKind::buffer) {
-    copy_buffer(r);
+    copy_buffer(r, dump);
   } else {
     const VkImage image = image_at(*r.state.sized, r.state.imports, r.state.context.plan, {dump.resource, 0}, r.frame);
-    for (uint32_t layer = 0; layer < dump.layouts.size(); ++layer) copy_layer(r, image, layer);
+    for (uint32_t layer = 0; layer < dump.layouts.size(); ++layer) copy_layer(r, dump, image, layer);
   }
   record_barrier(r, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
+}  // namespace
+
+void record_dumps(FrameRecording& r, Index pass) {
+  for (const DumpRequest& dump : r.state.dumps)
+    if (dump.pass == pass && !dump.recorded) record_dump(r, dump);
+}
+
 Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
   RG_TRY(check_dump(*state_, pass, resource, mip));
-  RG_TRY(wait_for(*state_, state_->dump.done));  // the buffer of an earlier request may be in use
   DumpRequest dump;
   dump.pass = pass, dump.resource = resource, dump.mip = mip;
   if (state_->context.plan.resources[resource].kind == ResourceKind::image)
@@ -142,15 +143,16 @@ Status GraphInstance::request_dump(Index pass, Index resource, uint32_t mip) {
   dump.memory = std::move(buffer->memory);
   dump.buffer = std::move(buffer->buffer);
   dump.mapped = buffer->mapped;
-  state_->dump = std::move(dump);
+  state_->dumps.push_back(std::move(dump));
   return Done{};
 }
 
 Result<Dump> GraphInstance::take_dump() {
-  if (!state_->dump.recorded) return Error{ErrorCode::invalid_argument, "no dump was requested and executed"};
-  RG_TRY(wait_for(*state_, state_->dump.done));
-  DumpRequest taken = std::move(state_->dump);
-  state_->dump = {};
+  std::vector<DumpRequest>& dumps = state_->dumps;
+  if (dumps.empty() || !dumps.front().recorded) return Error{ErrorCode::invalid_argument, "no dump was requested and executed"};
+  RG_TRY(wait_for(*state_, dumps.front().done));
+  DumpRequest taken = std::move(dumps.front());
+  dumps.erase(dumps.begin());
   taken.shape.bytes.resize(taken.bytes);
   std::memcpy(taken.shape.bytes.data(), taken.mapped, taken.bytes);
   return std::move(taken.shape);

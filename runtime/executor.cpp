@@ -115,7 +115,8 @@ void end_frame(GraphInstance::State& state, FrameSlot& slot) {
   slot.sources.swap(state.entry_sources);
   state.entry_barrier = state.has_turn = false;
   if (TransientHeap* heap = state.context.heap.get()) heap->last_user = &state, heap->timelines = state.timelines, heap->moment = state.submitted;
-  if (state.dump.pass != kNone && !state.dump.recorded) state.dump.recorded = true, state.dump.done = state.submitted;
+  for (DumpRequest& dump : state.dumps)
+    if (!dump.recorded) dump.recorded = true, dump.done = state.submitted;
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, co
   state.imports_applied = false;
   state.invalidated.clear();  // all of it is as declared, or another instance's
   state.sized_at = state.frame;
-  if (!state.dump.recorded) state.dump = {};  // asked for at other extents
+  std::erase_if(state.dumps, [](const DumpRequest& dump) { return !dump.recorded; });  // asked for at other extents
   return Done{};
 }
 

@@ -179,9 +179,10 @@ class GraphInstance {
   std::vector<PassStatistics> pass_statistics();
   // Contents of a `readback` buffer of the last finished frame (waits for it). Valid until the next execute.
   Result<std::span<const std::byte>> readback(Index resource);
-  // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump.
+  // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump. Several may be asked for at once: they are
+  // taken in the order asked. A resize forgets what was asked for and not executed.
   Status request_dump(Index pass, Index resource, uint32_t mip = 0);
-  Result<Dump> take_dump();  // waits for that frame; `invalid_argument` where none was asked for
+  Result<Dump> take_dump();  // the oldest; waits for its frame; `invalid_argument` where none was executed
   uint64_t frame() const;  // frames executed, those of the instances before included
   // Whether `prev(1)` of a history or persistent resource is what a frame has left, and not its initial value.
   bool history_valid(Index resource) const;

@@ -443,7 +443,7 @@ struct GraphInstance::State {
   std::vector<Index> choosing_passes;          // whose pipelines features choose
   uint32_t update_slots = 0;
   std::vector<double> wall_ms;  // by pass, with submit_per_pass
-  DumpRequest dump;
+  std::vector<DumpRequest> dumps;  // in the order asked
   std::vector<VkSubmitInfo2> submits;
   std::vector<VkCommandBufferSubmitInfo> submit_commands;
   std::vector<VkSemaphoreSubmitInfo> submit_waits, submit_signals;

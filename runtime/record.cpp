@@ -1,5 +1,7 @@
 #include "runtime/record.h"
 
+#include <algorithm>
+
 #include "runtime/barriers.h"
 #include "runtime/inputs.h"
 #include "runtime/queues.h"
@@ -100,9 +102,10 @@ void record_work(const FrameRecording& r, const Pass& pass, const PassTable& tab
 // Each pass of a rendering by itself, with its contents in memory between them: a submit each, or something to read in between.
 bool stands_alone(const FrameRecording& r, Index pass) {
   if (r.state.context.serial || r.state.context.submit_per_pass) return true;
-  if (r.state.dump.pass == kNone || r.state.dump.recorded) return false;
   const Plan& plan = r.state.context.plan;
-  return plan.passes[r.state.dump.pass].rendering == plan.passes[pass].rendering;
+  for (const DumpRequest& dump : r.state.dumps)
+    if (!dump.recorded && plan.passes[dump.pass].rendering == plan.passes[pass].rendering) return true;
+  return false;
 }
 
 void begin_attachments(const FrameRecording& r, const PassRow& row, RenderingTable& table) {
@@ -161,7 +164,7 @@ bool is_watched(const FrameRecording& r) {
   const GraphInstance::State& state = r.state;
   if (r.queries != VK_NULL_HANDLE || r.statistics != VK_NULL_HANDLE) return true;
   if (state.context.serial || state.context.submit_per_pass || state.context.device.classic_render_passes) return true;
-  return state.dump.pass != kNone && !state.dump.recorded;
+  return std::any_of(state.dumps.begin(), state.dumps.end(), [](const DumpRequest& dump) { return !dump.recorded; });
 }
 
 }  // namespace
@@ -193,7 +196,7 @@ void record_pass(FrameRecording& r, Index index) {
   else
     record_alone(r, index, row, runs);
   write_timestamp(r, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 2 * index + 1);
-  if (r.state.dump.pass == index && !r.state.dump.recorded) record_dump(r, index);
+  if (!r.state.dumps.empty()) record_dumps(r, index);
   if (labels) r.vk.CmdEndDebugUtilsLabelEXT(r.commands);
   if (r.state.context.serial || (alone && row.shares_rendering && !row.ends_rendering)) wait_for_all(r);
 }

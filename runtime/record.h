@@ -39,7 +39,7 @@ void wait_for_all(const FrameRecording& recording);  // a barrier from everythin
 
 void close_module(FrameRecording& recording);  // at the end of every command buffer
 
-// The dump that was asked for, right after its pass. In dump.cpp.
-void record_dump(FrameRecording& recording, Index pass);
+// The dumps that were asked for, right after their pass. In dump.cpp.
+void record_dumps(FrameRecording& recording, Index pass);
 
 }  // namespace rg

@@ -1,3 +1,5 @@
+#include <map>
+
 #include "compiler/commands/command.h"
 #include "compiler/commands/facts.h"
 #include "compiler/commands/plan_json.h"
@@ -6,6 +8,18 @@
 
 namespace rg::commands {
 namespace {
+
+// By pass: the number of its rendering, where it shares that with others, or null.
+nlohmann::ordered_json shared_renderings(const PlanData& plan) {
+  std::map<Index, uint32_t> users;
+  for (const Pass& pass : plan.passes) ++users[pass.rendering];
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const Pass& pass : plan.passes) {
+    const bool shared = pass.rendering != kNone && users[pass.rendering] > 1;
+    rows.push_back(shared ? nlohmann::ordered_json(pass.rendering) : nlohmann::ordered_json());
+  }
+  return rows;
+}
 
 nlohmann::ordered_json page_data(const compiler::CompileResult& result) {
   nlohmann::ordered_json plans = nlohmann::ordered_json::array();
@@ -18,6 +32,7 @@ nlohmann::ordered_json page_data(const compiler::CompileResult& result) {
                         {"heap_bytes", facts.heap_bytes},
                         {"unaliased_bytes", facts.unaliased_bytes},
                         {"lower_bound_bytes", facts.lower_bound_bytes}};
+      row["shared_renderings"] = shared_renderings(plan.plan);
       auto& decisions = row["decisions"] = nlohmann::ordered_json::array();
       for (const compiler::Decision& decision : plan.decisions)
         decisions.push_back({{"subject", decision.subject}, {"what", decision.what}, {"reason", decision.reason}});

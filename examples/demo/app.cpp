@@ -75,6 +75,8 @@ FrameSettings settings_for(const DemoOptions& options, const Shot& shot, uint32_
   settings.number = number;
   settings.debug_view = shot.view;
   settings.forced_features = options.forced_features;
+  const auto scatters = [&](std::string_view light) { return std::find(options.fog.begin(), options.fog.end(), light) != options.fog.end(); };
+  settings.fog_sun = scatters("sun"), settings.fog_lights = scatters("lights"), settings.fog_ambient = scatters("ambient");
   return settings;
 }
 

@@ -117,7 +117,6 @@ frame::Fog make_fog(const Scene& scene, const NamedCamera& camera, const FrameSe
   fog.phase = scene.fog.phase;
   fog.albedo = to_rg(scene.fog.albedo);
   fog.blend = settings.noise && settings.number > 0 ? 0.08f : 1.0f;
-  fog.terms = frame::FOG_SUN | frame::FOG_LIGHTS | frame::FOG_AMBIENT;
   fog.volume_count = static_cast<uint32_t>(std::min<size_t>(scene.fog.boxes.size(), frame::MAX_FOG_VOLUMES));
   fog.jitter = to_rg(settings.noise ? froxel_jitter(settings.number) : glm::vec3(0));
   fog.count = to_rg(glm::vec3(froxels_of(settings.width, settings.height)));
@@ -129,6 +128,18 @@ constexpr std::string_view kViews[] = {"final",    "lights",   "albedo", "normal
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace
+
+bool shines(const rg::vec3& color) { return color.x > 0 || color.y > 0 || color.z > 0; }
+
+// What is dark has no kernel that asks for it.
+frame::Features make_features(const Scene& scene, const FrameData& data, const FrameSettings& settings) {
+  frame::Features features;
+  features.holograms = scene.has_hologram;
+  features.fog_sun = settings.fog_sun && shines(data.view.sun_color);
+  features.fog_lights = settings.fog_lights && !data.lights.empty();
+  features.fog_ambient = settings.fog_ambient && shines(data.view.ambient);
+  return features;
+}
 
 FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameSettings& settings) {
   const float time = settings.animate ? kFrameSeconds * static_cast<float>(settings.number) : 0.0f;
@@ -148,6 +159,7 @@ FrameData make_frame(const Scene& scene, const NamedCamera& camera, const FrameS
   if (settings.jitter) projection.jitter = jitter_of(settings.number, {settings.width, settings.height});
   data.hologram.model_to_clip = to_rg(view_to_clip(projection) * world_to_view(camera) * at);
   data.hologram.color = {0.10f, 0.85f, 0.75f, 1};
+  data.features = make_features(scene, data, settings);
   return data;
 }
 

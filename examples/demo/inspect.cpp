@@ -18,18 +18,6 @@ std::string names_of(std::span<const Row> rows) {
   return text;
 }
 
-Status dump_one(Renderer& renderer, const DemoOptions& options, const DumpPoint& point, const std::function<Status()>& draw) {
-  GraphInstance& graph = renderer.graph().instance();
-  if (Status asked = graph.request_dump(point.pass, point.resource); !asked) return asked;
-  if (Status drawn = draw(); !drawn) return drawn;
-  const auto dump = graph.take_dump();
-  if (!dump) return dump.error();
-  const auto files = write_dump(options.out, point.name, *dump);
-  if (!files) return files.error();
-  for (const std::string& file : *files) std::printf("wrote %s\n", file.c_str());
-  return Done{};
-}
-
 Status write_text(const std::string& path, const std::string& text) {
   const std::string temporary = path + ".tmp";
   std::ofstream file(temporary, std::ios::binary);
@@ -47,20 +35,39 @@ Status write_text(const std::string& path, const std::string& text) {
 Result<DumpPoint> find_dump(const Plan& plan, const std::string& text) {
   const size_t dot = text.find('.');
   if (dot == std::string::npos) return Error{ErrorCode::invalid_argument, "`" + text + "` is not of the form PASS.resource"};
-  DumpPoint point{find_pass(plan, text.substr(0, dot)), find_resource(plan, text.substr(dot + 1)), text};
+  DumpPoint point{find_pass(plan, text.substr(0, dot)), find_resource(plan, text.substr(dot + 1))};
   if (point.pass == kNone) return Error{ErrorCode::invalid_argument, "there is no pass `" + text.substr(0, dot) + "`; there are " + names_of(plan.passes)};
   if (point.resource == kNone)
     return Error{ErrorCode::invalid_argument, "there is no resource `" + text.substr(dot + 1) + "`; there are " + names_of(plan.resources)};
   return point;
 }
 
-Status inspect(Renderer& renderer, const DemoOptions& options, const std::function<Status()>& draw) {
+namespace {
+
+// All of one frame.
+Status write_dumps(GraphInstance& graph, const DemoOptions& options, const std::function<Status()>& draw) {
+  if (options.dumps.empty()) return Done{};
   for (const std::string& text : options.dumps) {
     const auto point = find_dump(frame::plan(), text);
     if (!point) return point.error();
-    if (Status dumped = dump_one(renderer, options, *point, draw); !dumped) return dumped;
+    if (Status asked = graph.request_dump(point->pass, point->resource); !asked) return asked;
   }
+  if (Status drawn = draw(); !drawn) return drawn;
+  for (const std::string& text : options.dumps) {
+    const auto dump = graph.take_dump();
+    if (!dump) return dump.error();
+    const auto files = write_dump(options.out, text, *dump);
+    if (!files) return files.error();
+    for (const std::string& file : *files) std::printf("wrote %s\n", file.c_str());
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Status inspect(Renderer& renderer, const DemoOptions& options, const std::function<Status()>& draw) {
   GraphInstance& graph = renderer.graph().instance();
+  if (Status dumped = write_dumps(graph, options, draw); !dumped) return dumped;
   ChromeTrace trace;
   for (uint32_t number = 0; number < 3 && !options.trace.empty(); ++number) {
     if (Status drawn = draw(); !drawn) return drawn;

@@ -13,7 +13,6 @@ namespace rg::demo {
 // Of the options: one dump as "PASS.resource".
 struct DumpPoint {
   Index pass = kNone, resource = kNone;
-  std::string name;
 };
 // An error names the passes or resources there are.
 Result<DumpPoint> find_dump(const Plan& plan, const std::string& text);

@@ -43,6 +43,10 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
       ->check(CLI::Validator([](std::string& text) { return weight_of(text) ? "" : "`" + text + "` is not of the form CAMERA=NUMBER"; }, ""));
   app.add_option("--force-feature", forced, "shade every tile with a feature of lamps, whether it has such lamps or not; may be repeated; `all`")
       ->check(CLI::IsMember(features));
+  app.add_option("--fog", options.fog, "light that fog scatters; a kernel for each set")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"sun", "lights", "ambient", "none"}))
+      ->capture_default_str();
   app.add_flag("--validate", options.validate, "run under the Khronos validation layer");
   app.add_option("--dump", options.dumps, "what PASS leaves in a resource, as PNG and EXR in --out; may be repeated")->type_name("PASS.RESOURCE");
   app.add_option("--trace", options.trace, "passes on a time line, for chrome://tracing or Perfetto")->type_name("FILE");

@@ -24,6 +24,7 @@ struct DemoOptions {
   std::string record_spectrum;     // a file for the feature masks of the tiles; empty: none
   std::map<std::string, double> weights;  // of cameras in that file; 1 where there is none
   uint32_t forced_features = 0;           // bits that every tile is shaded with
+  std::vector<std::string> fog = {"sun", "lights", "ambient"};  // light that fog scatters
   int device = -1;
   bool validate = false, list_devices = false;
 };

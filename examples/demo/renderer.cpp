@@ -241,10 +241,8 @@ Status Renderer::render(const FrameData& data) {
   params.lamps = data.lamps;
   frame::Conditions conditions;
   conditions.lamps_moved = s.shadows.update(data);
-  frame::Features features;
-  features.holograms = s.scene->has_hologram;
   Recorder recorder{*s.scene, s.gpu, data, s.hologram_pipeline.get()};
-  return s.graph->execute(imports, params, conditions, features, recorder);
+  return s.graph->execute(imports, params, conditions, data.features, recorder);
 }
 
 Result<Picture> Renderer::picture() {

@@ -10,9 +10,9 @@ const FOG_CASCADES = 4  // ranges of depth, each with its share of the slices
 
 extent froxels = runtime(64, 36, 64) max(160, 96, 128)  // slices: a multiple of FOG_CLUSTER * FOG_CASCADES
 
-const FOG_SUN = 1  // of `terms`
-const FOG_LIGHTS = 2
-const FOG_AMBIENT = 4
+feature fog_sun: bool  // which light is scattered, chosen each frame; a kernel for each of the eight sets
+feature fog_lights: bool
+feature fog_ambient: bool
 
 struct Fog {
   ends:           vec4  // view depth where each cascade ends, metres, ascending; its slices divide it evenly
@@ -24,7 +24,6 @@ struct Fog {
   thinning:       f32   // above it, 1 / metre
   phase:          f32   // mean cosine of the angle that sunlight is scattered by (Henyey and Greenstein)
   blend:          f32   // share of the new frame, 1: history counts for nothing
-  terms:          u32   // FOG_*: which light is scattered
   albedo:         vec3  // share of light that is scattered, not absorbed
   volume_count:   u32
   jitter:         vec3  // of this frame's samples, froxels, within half a froxel of the centre
@@ -69,6 +68,7 @@ technique fog_chain(params camera: View, params fog: Fog, buffer lights, buffer 
   }
   pass light : compute queue compute may {
     block  "fog_light.glsl" group 4 4 4
+    features fog_sun, fog_lights, fog_ambient
     params camera
     params fog
     read   lights as storage

@@ -32,8 +32,8 @@ vec3 scatter_lamps(vec3 p, uint cluster) {
 
 vec3 scatter(vec3 p, uint cluster) {
   vec3 sum = vec3(0.0);
-  if ((fog.terms & FOG_SUN) != 0u) sum += scatter_sun(p, normalize(p - camera.position));
-  if ((fog.terms & FOG_LIGHTS) != 0u) sum += scatter_lamps(p, cluster);
-  if ((fog.terms & FOG_AMBIENT) != 0u) sum += scatter_sky();
+  if (fog_sun) sum += scatter_sun(p, normalize(p - camera.position));
+  if (fog_lights) sum += scatter_lamps(p, cluster);
+  if (fog_ambient) sum += scatter_sky();
   return sum;
 }

@@ -51,15 +51,11 @@ double fog_density(const frame::Fog& fog, const std::vector<frame::FogVolume>& v
 }
 
 glm::dvec3 scattered_light(const frame::View& view, const frame::Fog& fog, const std::vector<frame::Light>& lights, glm::dvec3 point) {
-  glm::dvec3 sum(0);
   const double cosine = glm::dot(glm::normalize(point - to_double(view.position)), to_double(view.sun_direction)), g = fog.phase;
   const double phase = (1 - g * g) / (4 * kPi * std::pow(1 + g * g - 2 * g * cosine, 1.5));
-  if ((fog.terms & frame::FOG_SUN) != 0) sum += to_double(view.sun_color) * phase;
-  if ((fog.terms & frame::FOG_AMBIENT) != 0) sum += to_double(view.ambient);
   glm::dvec3 lamps(0);
-  if ((fog.terms & frame::FOG_LIGHTS) != 0)
-    for (const frame::Light& light : lights) lamps += lamp_irradiance(light, point);
-  return sum + glm::max(lamps, 0.0) / (4 * kPi);
+  for (const frame::Light& light : lights) lamps += lamp_irradiance(light, point);
+  return to_double(view.sun_color) * phase + to_double(view.ambient) + glm::max(lamps, 0.0) / (4 * kPi);
 }
 
 std::vector<FogSum> march(const frame::View& view, const frame::Fog& fog, glm::ivec2 column, const std::vector<glm::dvec3>& inscatter,

@@ -64,5 +64,23 @@ graph frame(surface backbuffer: rgba8 view after copy_src) {
   EXPECT_GE(reasons("unseen"), 1);
 }
 
+TEST(GraphPage, TellsWhichPassesAreOneRendering) {
+  const Json plans = data_of(page_of(R"(module one
+extent view = runtime(64, 64) max(128, 128)
+graph frame(surface backbuffer: rgba8 view after copy_src) {
+  image shadow : d32f view
+  pass cast : raster { depth shadow clear 0.0  draw host {} }
+  pass sky  : raster { read shadow as sampled in fragment  color backbuffer clear 0  draw host {} }
+  pass land : raster { color backbuffer  draw host {} }
+}
+)"));
+  ASSERT_EQ(plans[0]["passes"].size(), 3u);
+  const Json& shared = plans[0]["shared_renderings"];
+  ASSERT_EQ(shared.size(), 3u);
+  EXPECT_TRUE(shared[0].is_null());
+  EXPECT_TRUE(shared[1].is_number());
+  EXPECT_EQ(shared[1], shared[2]);
+}
+
 }  // namespace
 }  // namespace rg::commands

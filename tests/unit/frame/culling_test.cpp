@@ -27,10 +27,13 @@ glm::vec2 brute_range(const Texels& depth, int x, int y, int mip, int columns, i
 TEST(DepthRange, EveryMipIsExact) {
   Lab& lab = plaza_lab();
   const FrameData data = lab.prepare();
-  const Texels depth = lab.image(data, pass::depth_props, resource::depth);
+  std::vector<DumpOf> what{{pass::depth_props, resource::depth}};
+  for (uint32_t mip = 0; mip < 5; ++mip) what.push_back({pass::light_occlusion, resource::depth_range, mip});
+  const std::vector<Dump> all = lab.dumps(data, what);
+  const Texels depth = texels_of(all[0]);
   ASSERT_EQ(depth.width, static_cast<int>(kWidth));
   for (uint32_t mip = 0; mip < 5; ++mip) {  // 27 x 15 texels, down to 1 x 1
-    const Texels range = lab.image(data, pass::light_occlusion, resource::depth_range, mip);
+    const Texels range = texels_of(all[1 + mip]);
     ASSERT_EQ(range.width, std::max(27 >> mip, 1));
     ASSERT_EQ(range.height, std::max(15 >> mip, 1));
     for (int y = 0; y < range.height; ++y)
@@ -77,9 +80,10 @@ TEST(TileLights, HoldEveryLightThatReachesAPixel) {
   Lab& lab = plaza_lab();
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     const FrameData data = lab.prepare(camera, {.number = 3, .noise = false, .animate = true});
-    const Texels depth = lab.image(data, pass::depth_props, resource::depth);
-    const std::vector<uint32_t> solid = lab.buffer<uint32_t>(data, pass::light_cull, resource::tile_lights);
-    const std::vector<uint32_t> forward = lab.buffer<uint32_t>(data, pass::light_cull, resource::forward_lights);
+    const std::vector<Dump> all =
+        lab.dumps(data, {{pass::depth_props, resource::depth}, {pass::light_cull, resource::tile_lights}, {pass::light_cull, resource::forward_lights}});
+    const Texels depth = texels_of(all[0]);
+    const std::vector<uint32_t> solid = values_of<uint32_t>(all[1]), forward = values_of<uint32_t>(all[2]);
     uint32_t missing = 0;
     const uint64_t contributions = for_each_contribution(depth, data, [&](int x, int y, uint32_t light) {
       const size_t tile = tile_of(x, y, frame::TILE);
@@ -102,8 +106,9 @@ TEST(TileLights, HoldEveryLightThatReachesAPixel) {
 TEST(TileRecords, HoldEveryContributingLightInOrder) {
   Lab& lab = plaza_lab();
   const FrameData data = lab.prepare(1);
-  const Texels depth = lab.image(data, pass::depth_props, resource::depth);
-  const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
+  const std::vector<Dump> all = lab.dumps(data, {{pass::depth_props, resource::depth}, {pass::tile_cull, resource::tile_records}});
+  const Texels depth = texels_of(all[0]);
+  const std::vector<Record> records = values_of<Record>(all[1]);
   ASSERT_EQ(records.size(), size_t{14 * 8});
   for (const Record& record : records) {
     ASSERT_LE(record.count, 64u);
@@ -136,8 +141,9 @@ TEST(TileRecords, KeepTheLowestIndicesOnOverflow) {
     const Scene scene = make_crowd(lights);
     Lab lab(scene, 96, 64);
     const FrameData data = lab.prepare();
-    const Texels depth = lab.image(data, pass::depth_props, resource::depth);
-    const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
+    const std::vector<Dump> all = lab.dumps(data, {{pass::depth_props, resource::depth}, {pass::tile_cull, resource::tile_records}});
+    const Texels depth = texels_of(all[0]);
+    const std::vector<Record> records = values_of<Record>(all[1]);
     uint32_t covered = 0;
     for (int y = 0; y < depth.height; y += frame::SHADE_TILE)
       for (int x = 0; x < depth.width; x += frame::SHADE_TILE) {

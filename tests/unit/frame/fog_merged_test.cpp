@@ -159,6 +159,8 @@ class FogLab {
     FrameInputs inputs;
     inputs.imports = imports;
     inputs.params = params;
+    const std::vector<uint32_t> all(plan_.features.size(), 1);  // sun, lamps and sky
+    inputs.features = all;
     const Status done = graph_->execute(inputs);
     ASSERT_TRUE(done) << done.error().message;
     ASSERT_TRUE(graph_->wait_idle());

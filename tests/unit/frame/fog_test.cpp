@@ -128,8 +128,9 @@ glm::dvec3 middle_of(const FrameData& data, int x, int y, int z) {
 TEST(FogClusters, HoldEveryLampAndBoxThatReachesAFroxel) {
   Lab& lab = misty_lab();
   const FrameData data = lab.prepare();
-  const auto lamps = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_lights);
-  const auto boxes = lab.buffer<uint32_t>(data, pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_volumes);
+  const std::vector<Dump> dumps = lab.dumps(data, {{pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_lights},
+                                                   {pass::froxel_fog_clusters_cull, resource::froxel_fog_cluster_volumes}});
+  const auto lamps = values_of<uint32_t>(dumps[0]), boxes = values_of<uint32_t>(dumps[1]);
   const std::vector<frame::FogVolume> volumes = demo::make_fog_volumes(misty_floor());
   const glm::ivec3 count(data.fog.count.x, data.fog.count.y, data.fog.count.z), clusters = (count + 3) / 4;
   uint32_t missing = 0, lit = 0, bits = 0;
@@ -214,19 +215,22 @@ TEST(FogLight, IsWhatLampsSunAndSkyScatter) {
 // A term that is left out gives the same bits as one whose light is dark.
 TEST(FogLight, TermsLeftOutAreTermsInTheDark) {
   Lab& lab = misty_lab();
+  constexpr uint32_t kSun = 1, kLights = 2, kSky = 4;
   const auto inscatter = [&](uint32_t terms, bool sun, bool lights, bool sky) {
     FrameData data = lab.prepare();
-    data.fog.terms = terms;
+    data.features.fog_sun = (terms & kSun) != 0, data.features.fog_lights = (terms & kLights) != 0, data.features.fog_ambient = (terms & kSky) != 0;
     if (!sun) data.view.sun_color = {0, 0, 0};
     if (!sky) data.view.ambient = {0, 0, 0};
     if (!lights)
       for (frame::Light& light : data.lights) light.color = {0, 0, 0};
     return lab.image(data, pass::froxel_fog_merged, resource::froxel_fog_memory).data;
   };
-  const uint32_t all = frame::FOG_SUN | frame::FOG_LIGHTS | frame::FOG_AMBIENT;
+  const uint32_t all = kSun | kLights | kSky;
   for (uint32_t terms = 0; terms < 8; ++terms) {
-    const bool sun = (terms & frame::FOG_SUN) != 0, lights = (terms & frame::FOG_LIGHTS) != 0, sky = (terms & frame::FOG_AMBIENT) != 0;
-    EXPECT_EQ(inscatter(terms, true, true, true), inscatter(all, sun, lights, sky)) << "terms " << terms;
+    const bool sun = (terms & kSun) != 0, lights = (terms & kLights) != 0, sky = (terms & kSky) != 0;
+    const std::vector<glm::vec4> chosen = inscatter(terms, true, true, true);
+    EXPECT_EQ(chosen, inscatter(all, sun, lights, sky)) << "terms " << terms;
+    EXPECT_EQ(terms != 0, std::any_of(chosen.begin(), chosen.end(), [](const glm::vec4& light) { return light.x > 0; })) << "terms " << terms;
   }
 }
 

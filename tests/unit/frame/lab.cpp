@@ -98,6 +98,8 @@ std::vector<glm::vec4> decode_texels(const Dump& dump) {
   return texels;
 }
 
+Texels texels_of(const Dump& dump) { return {static_cast<int>(dump.width), static_cast<int>(dump.height), decode_texels(dump)}; }
+
 Device& device() {
   static Device device = [] {
     auto made = Device::create({});
@@ -170,22 +172,21 @@ demo::Picture Lab::picture() {
   return {};
 }
 
-Dump Lab::dump(const FrameData& data, Index pass, Index resource, uint32_t mip) {
-  const Status asked = graph().instance().request_dump(pass, resource, mip);
-  if (!asked) {
-    ADD_FAILURE() << asked.error().message;
-    return {};
+Dump Lab::dump(const FrameData& data, Index pass, Index resource, uint32_t mip) { return dumps(data, {{pass, resource, mip}})[0]; }
+
+std::vector<Dump> Lab::dumps(const FrameData& data, const std::vector<DumpOf>& what) {
+  for (const DumpOf& one : what) {
+    const Status asked = graph().instance().request_dump(one.pass, one.resource, one.mip);
+    EXPECT_TRUE(asked) << asked.error().message;
   }
   render(data);
-  auto taken = graph().instance().take_dump();
-  if (taken) return std::move(*taken);
-  ADD_FAILURE() << taken.error().message;
-  return {};
-}
-
-Texels Lab::image(const FrameData& data, Index pass, Index resource, uint32_t mip) {
-  const Dump bytes = dump(data, pass, resource, mip);
-  return {static_cast<int>(bytes.width), static_cast<int>(bytes.height), decode_texels(bytes)};
+  std::vector<Dump> all(what.size());
+  for (Dump& one : all) {
+    auto taken = graph().instance().take_dump();
+    EXPECT_TRUE(taken) << taken.error().message;
+    if (taken) one = std::move(*taken);
+  }
+  return all;
 }
 
 Index deferred_light() {

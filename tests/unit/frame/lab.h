@@ -32,6 +32,20 @@ struct Texels {  // of an image, as floats, four to a texel
 // Four floats a texel, in the order of the dump; slices and layers one after the other.
 std::vector<glm::vec4> decode_texels(const Dump& dump);
 
+Texels texels_of(const Dump& dump);  // of one slice, or all below each other
+
+template <class T>
+std::vector<T> values_of(const Dump& dump) {
+  std::vector<T> values(dump.bytes.size() / sizeof(T));
+  std::memcpy(values.data(), dump.bytes.data(), values.size() * sizeof(T));
+  return values;
+}
+
+struct DumpOf {
+  Index pass, resource;
+  uint32_t mip = 0;
+};
+
 class Lab {
  public:
   explicit Lab(const Scene& scene, uint32_t width = kWidth, uint32_t height = kHeight);
@@ -43,14 +57,13 @@ class Lab {
 
   // Renders and returns what the pass left in the resource.
   Dump dump(const FrameData& data, Index pass, Index resource, uint32_t mip = 0);
-  Texels image(const FrameData& data, Index pass, Index resource, uint32_t mip = 0);
+  Texels image(const FrameData& data, Index pass, Index resource, uint32_t mip = 0) { return texels_of(dump(data, pass, resource, mip)); }
   template <class T>
   std::vector<T> buffer(const FrameData& data, Index pass, Index resource) {
-    const Dump bytes = dump(data, pass, resource);
-    std::vector<T> values(bytes.bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.bytes.data(), values.size() * sizeof(T));
-    return values;
+    return values_of<T>(dump(data, pass, resource));
   }
+  // All of one frame, which costs less than a frame each.
+  std::vector<Dump> dumps(const FrameData& data, const std::vector<DumpOf>& what);
   frame::Frame& graph() { return renderer_->graph(); }
 
  private:

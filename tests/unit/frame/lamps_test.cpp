@@ -251,8 +251,9 @@ TEST(TileRecords, HoldTheUnionOfTheirLampsFeatures) {
   uint32_t all = 0;
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     const FrameData data = lab.prepare(camera);
-    const auto records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
-    const auto features = lab.buffer<uint32_t>(data, pass::tile_cull, resource::tile_features);
+    const std::vector<Dump> dumps = lab.dumps(data, {{pass::tile_cull, resource::tile_records}, {pass::tile_cull, resource::tile_features}});
+    const auto records = values_of<Record>(dumps[0]);
+    const auto features = values_of<uint32_t>(dumps[1]);
     ASSERT_EQ(features.size(), records.size());
     for (size_t tile = 0; tile < records.size(); ++tile) {
       uint32_t expected = 0;

@@ -105,8 +105,12 @@ TEST(Bloom, KeepsAConstantAtEveryLevel) {
   const Scene room = make_room(glm::vec3(0.5f));
   Lab lab(room, 128, 96);
   const FrameData data = lab.prepare();
+  std::vector<DumpOf> what;
+  for (uint32_t mip = 0; mip < 6; ++mip)
+    for (const Index after : {pass::bloom_down_5, pass::bloom_up_5}) what.push_back({after, resource::bloom, mip});
+  const std::vector<Dump> all = lab.dumps(data, what);
   for (uint32_t mip = 0; mip < 6; ++mip) {
-    const Texels down = lab.image(data, pass::bloom_down_5, resource::bloom, mip), up = lab.image(data, pass::bloom_up_5, resource::bloom, mip);
+    const Texels down = texels_of(all[2 * mip]), up = texels_of(all[2 * mip + 1]);
     for (const glm::vec4& texel : down.data) ASSERT_NEAR(texel.g, 0.5f, 2e-3f) << "down, mip " << mip;
     for (const glm::vec4& texel : up.data) ASSERT_NEAR(texel.g, 0.5f, 2e-3f) << "up, mip " << mip;
   }
@@ -124,7 +128,8 @@ TEST(Bloom, DownIsTheMeanOfFourTaps) {
   Lab lab(plaza());
   const FrameData data = lab.prepare();
   lab.render(data);
-  const Texels source = lab.image(data, pass::bloom_first, resource::bloom, 0), target = lab.image(data, pass::bloom_down_1, resource::bloom, 1);
+  const std::vector<Dump> all = lab.dumps(data, {{pass::bloom_first, resource::bloom}, {pass::bloom_down_1, resource::bloom, 1}});
+  const Texels source = texels_of(all[0]), target = texels_of(all[1]);
   ASSERT_EQ(source.width, 106);
   ASSERT_EQ(target.width, 53);
   for (int y = 0; y < target.height; ++y)
@@ -144,8 +149,8 @@ TEST(Bloom, NeitherAddsNorLosesLight) {
     for (const glm::vec4& texel : image.data) sum += rgb(texel);
     return sum / static_cast<double>(image.data.size());
   };
-  const glm::dvec3 first = mean(lab.image(data, pass::bloom_first, resource::bloom, 0)),
-                   whole = mean(lab.image(data, pass::bloom_up_5, resource::bloom, 0));
+  const std::vector<Dump> all = lab.dumps(data, {{pass::bloom_first, resource::bloom}, {pass::bloom_up_5, resource::bloom}});
+  const glm::dvec3 first = mean(texels_of(all[0])), whole = mean(texels_of(all[1]));
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(whole[c], first[c], 0.05 * first[c]) << "channel " << c;
 }
 

@@ -18,8 +18,9 @@ TEST(DeferredLight, IsTheSumOverAllLamps) {
     keep_lamps_only(data);
     const GBuffer g = read_gbuffer(lab, data);
     const reference::LampTextures lookups = make_lookups(lab, data, plaza());
-    const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
-    const Texels hdr = lab.image(data, deferred_light(), resource::hdr);
+    const std::vector<Dump> dumps = lab.dumps(data, {{pass::tile_cull, resource::tile_records}, {deferred_light(), resource::hdr}});
+    const std::vector<Record> records = values_of<Record>(dumps[0]);
+    const Texels hdr = texels_of(dumps[1]);
     uint32_t compared = 0;
     for (int y = 1; y < hdr.height; y += 5)
       for (int x = 2; x < hdr.width; x += 7) {
@@ -60,8 +61,9 @@ TEST(LightPaths, RecordsGiveTheSameImageWhereNoneOverflows) {
   Lab& lab = plaza_lab();
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     FrameData data = lab.prepare(camera);
-    const std::vector<Record> records = lab.buffer<Record>(data, pass::tile_cull, resource::tile_records);
-    const Texels by_record = lab.image(data, deferred_light(), resource::hdr);
+    const std::vector<Dump> dumps = lab.dumps(data, {{pass::tile_cull, resource::tile_records}, {deferred_light(), resource::hdr}});
+    const std::vector<Record> records = values_of<Record>(dumps[0]);
+    const Texels by_record = texels_of(dumps[1]);
     data.view.light_path = static_cast<uint32_t>(frame::LIGHT_PATH_ALL);
     const Texels by_all = lab.image(data, deferred_light(), resource::hdr);
     uint32_t different = 0;

@@ -100,9 +100,10 @@ double visibility(ShadowMap map, const frame::Light& light, glm::dvec3 p, glm::d
 }  // namespace
 
 GBuffer read_gbuffer(Lab& lab, const FrameData& data) {
-  return {lab.image(data, pass::gbuffer_props, resource::depth), lab.image(data, pass::gbuffer_props, resource::albedo),
-          lab.image(data, pass::gbuffer_props, resource::normal), lab.image(data, pass::gbuffer_props, resource::material),
-          lab.image(data, pass::gbuffer_props, resource::emissive)};
+  const Index after = pass::gbuffer_props;
+  const std::vector<Dump> all = lab.dumps(
+      data, {{after, resource::depth}, {after, resource::albedo}, {after, resource::normal}, {after, resource::material}, {after, resource::emissive}});
+  return {texels_of(all[0]), texels_of(all[1]), texels_of(all[2]), texels_of(all[3]), texels_of(all[4])};
 }
 
 reference::SurfacePoint surface_at(const GBuffer& g, const FrameData& data, int x, int y) {

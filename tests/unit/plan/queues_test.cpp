@@ -113,6 +113,28 @@ TEST(Queues, OneOwnerAtATimeAndSharedReaders) {
   EXPECT_EQ(halves[1]->src_accesses, access::none);  // the wait before it has made the write visible
 }
 
+// `fog` reads the engine's image; what stands in braces is how that comes and goes.
+FramePlan with_engine_image(const std::string& state) {
+  return plan_of(program_of_text("module m\nextent view = runtime(64, 64) max(128, 128)\ninterface World { maps: image rgba8 view " + state + " }\n"
+                                 "graph g(world: World, surface backbuffer: rgba8 view after copy_src) {\n"
+                                 "  image fogged : r8 view\n  image depth : d32f view\n  image shadow : d32f view\n"
+                                 "  pass prepass : raster { depth depth clear 0.0  draw host {} }\n"
+                                 "  pass fog : compute queue compute may { read world.maps as sampled  read depth as sampled  write fogged as storage }\n"
+                                 "  pass shadows : raster { depth shadow clear 0.0  draw host {} }\n"
+                                 "  pass light : raster { read world.maps as sampled in fragment  read fogged as sampled in fragment\n"
+                                 "    read shadow as sampled in fragment  color backbuffer covers }\n}\n"),
+                 {.queues = {dsl::QueueKind::graphics, dsl::QueueKind::compute}, .measured_us = {{"prepass", 50}, {"fog", 200}, {"shadows", 250}, {"light", 100}}});
+}
+
+TEST(Queues, ImagesOfTheEngineAreSharedWhereNobodyChangesTheirLayout) {
+  const FramePlan ready = with_engine_image("ready as sampled in compute, fragment");
+  EXPECT_EQ(pass_named(ready.plan, "fog").queue, 1u);
+  EXPECT_TRUE(ready.plan.resources[resource_named(ready.plan, "world.maps")].concurrent);
+  for (const ImageBarrier& b : ready.plan.image_barriers) EXPECT_NE(b.image.resource, resource_named(ready.plan, "world.maps"));
+  const FramePlan changed = with_engine_image("written as storage in compute after sampled in fragment");
+  EXPECT_EQ(pass_named(changed.plan, "fog").queue, 0u) << "the engine's layout is another one";
+}
+
 TEST(Queues, MemoryGoesOnlyToWhoeverComesAfter) {
   const PlanData plan = plan_of(kOverlap, kTwo).plan;
   const Plan view = plan.view();

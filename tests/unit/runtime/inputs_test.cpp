@@ -88,6 +88,39 @@ TEST_F(Inputs, DumpsCopyInTheLayoutOfThePass) {
   EXPECT_EQ(test::calls(frame(graph), "vkCmdCopyImageToBuffer").size(), 1u);
 }
 
+TEST_F(Inputs, SeveralDumpsOfAFrameAreTakenInTheOrderAsked) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  GraphOptions options;
+  options.debug_readback = true;
+  GraphInstance graph = make(t.plan, options);
+  ASSERT_TRUE(graph.request_dump(t.copy, t.result));
+  ASSERT_TRUE(graph.request_dump(0, t.color));
+  ASSERT_TRUE(graph.request_dump(t.copy, t.color));
+  EXPECT_EQ(graph.take_dump().error().message, "no dump was requested and executed");
+  const std::string text = frame(graph);
+  EXPECT_EQ(test::calls(text, "vkCmdCopyImageToBuffer").size(), 3u);  // one is the frame's own
+  EXPECT_EQ(test::calls(text, "vkCmdCopyBuffer(").size() + test::calls(text, "vkCmdCopyBuffer ").size(), 1u);
+  EXPECT_EQ(graph.take_dump()->format, Format::undefined);
+  EXPECT_EQ(graph.take_dump()->width, 8u);
+  EXPECT_EQ(graph.take_dump()->height, 4u);
+  EXPECT_EQ(graph.take_dump().error().message, "no dump was requested and executed");
+}
+
+TEST_F(Inputs, AResizeForgetsDumpsThatWereNotExecuted) {
+  test::ClearAndCopy t = test::clear_and_copy();
+  GraphOptions options;
+  options.debug_readback = true;
+  GraphInstance graph = make(t.plan, options);
+  ASSERT_TRUE(graph.request_dump(t.copy, t.color));
+  frame(graph);
+  ASSERT_TRUE(graph.request_dump(0, t.color));
+  const int64_t extents[] = {16, 8, 1};
+  ASSERT_TRUE(graph.resize(extents));
+  frame(graph);
+  EXPECT_EQ(graph.take_dump()->width, 8u);
+  EXPECT_FALSE(graph.take_dump());
+}
+
 // ---- parameters ---------------------------------------------------------------------------------------------------
 
 TEST_F(Inputs, ParameterBlocksLieInTheSectionOfTheirFrame) {
