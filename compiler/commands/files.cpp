@@ -160,7 +160,7 @@ dsl::ReadSource reader_for(const std::string& root_path) {
   return [=](const std::string& path, std::string& why) -> std::optional<std::string> {
     if (path != root_path && !inside(folder, path)) {
       std::error_code error;
-      fs::weakly_canonical(fs::absolute(path), error);
+      (void)fs::weakly_canonical(fs::absolute(path), error);
       const bool loops = error == std::errc::too_many_symbolic_link_levels;
       why = loops ? "it is a link that leads back to itself" : "it is outside the folder of `" + root_path + "`";
       return std::nullopt;
