@@ -222,12 +222,6 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   at.out.dropped = true;
 }
 
-std::vector<std::string_view> pass_names(const GraphScope& scope) {
-  std::vector<std::string_view> names;
-  for (const Pass& pass : scope.graph.passes) names.push_back(pass.name);
-  return names;
-}
-
 void read_after(Builder& at, const ast::Expr& value) {
   const auto evaluated = evaluated_name(at.checker, at.scope, value);
   if (!evaluated) return void(at.out.dropped = true);
@@ -236,8 +230,8 @@ void read_after(Builder& at, const ast::Expr& value) {
   if (found != at.scope.passes.end()) return at.out.pass.after.push_back(found->second);
   if (at.checker.lost_names || at.scope.failed.count("pass " + name)) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
-  for (const std::string_view known : pass_names(at.scope))
-    if (known.starts_with(at.scope.prefix)) candidates.push_back(known.substr(at.scope.prefix.size()));  // as they are called here
+  for (const Pass& pass : at.scope.graph.passes)
+    if (pass.name.starts_with(at.scope.prefix)) candidates.push_back(std::string_view(pass.name).substr(at.scope.prefix.size()));  // as called here
   Diagnostic diagnostic(DiagnosticKind::UnknownEarlierPass, value.span, {name});
   Guess guess = closest(*evaluated, candidates);
   guess.certain = guess.certain && spelled(value) == *evaluated && guess.words[0].find('[') == std::string::npos;  // an index may be a variable

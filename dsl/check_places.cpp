@@ -58,20 +58,14 @@ std::string member_called(const GraphScope& scope, const std::string& name) {
   return found;
 }
 
-std::vector<std::string_view> resource_names(const GraphScope& scope) {
-  std::vector<std::string_view> names;
-  for (const Resource& resource : scope.graph.resources) names.push_back(resource.name);
-  return names;
-}
-
 void report_unknown(Walk walk, const Expr& expr, const std::string& name) {
   walk.scope.incomplete = true;
   if (walk.checker.lost_names || !walk.scope.failed.emplace(walk.scope.prefix + name, true).second)
     return;  // one mistake, however often it is repeated
   const std::string_view prefix = walk.scope.prefix;
   std::vector<std::string_view> candidates;  // as they are called here
-  for (const std::string_view known : resource_names(walk.scope))
-    if (known.starts_with(prefix)) candidates.push_back(known.substr(prefix.size()));
+  for (const Resource& known : walk.scope.graph.resources)
+    if (known.name.starts_with(prefix)) candidates.push_back(std::string_view(known.name).substr(prefix.size()));
   for (const Binding& binding : walk.scope.bindings)
     if (binding.kind == Binding::Kind::place) candidates.push_back(binding.name);
   Diagnostic diagnostic(DiagnosticKind::UnknownName, expr.span, {"resource", name});

@@ -62,13 +62,21 @@ Expr parse_dimensions(Parser& parser) {
   return expr;
 }
 
+// Inside brackets: as deep as the deepest of them.
+Expr parse_part(Parser& parser, const char* what = "an expression") {
+  const uint32_t others = parser.operators;
+  Expr part = parse_expression(parser, what);
+  parser.operators = std::max(others, parser.operators);
+  return part;
+}
+
 Expr parse_list(Parser& parser, TokenKind close) {
   const Span open = parser.here();
   parser.take();
   Expr list;
   list.kind = ExprKind::list;
   do {
-    list.operands.push_back(parse_expression(parser));
+    list.operands.push_back(parse_part(parser));
   } while (!parser.silent && parser.accept(TokenKind::comma));
   close_list(parser, close);
   list.span = parser.since(open.begin);
@@ -98,7 +106,7 @@ Expr parse_suffix(Parser& parser, Expr base) {
     return expr;
   }
   if (parser.accept(TokenKind::left_bracket)) {
-    Expr index = parse_expression(parser, "an index");
+    Expr index = parse_part(parser, "an index");
     parser.expect(TokenKind::right_bracket);
     Expr expr = unary(parser, ExprKind::index, std::move(base), begin);
     expr.operands.push_back(std::move(index));
@@ -158,6 +166,7 @@ Expr parse_primary(Parser& parser, const char* what) {
 Expr parse_factor(Parser& parser, const char* what) {
   const Nested nested(parser);
   if (!nested.fits) return {};
+  parser.operators = 0;
   const uint32_t begin = parser.peek().begin;
   if (!parser.accept(TokenKind::minus)) return parse_primary(parser, what);
   return unary(parser, ExprKind::negate, parse_factor(parser, what), begin);
@@ -170,8 +179,10 @@ Expr binary(Parser& parser, ExprKind kind, Expr left, Expr right) {
   return expr;
 }
 
-bool too_long(Parser& parser) {
-  if (++parser.operators <= kMaxOperators) return false;
+// One operator above operands that are `left` and parser.operators deep.
+bool too_long(Parser& parser, uint32_t left) {
+  parser.operators = std::max(left, parser.operators) + 1;
+  if (parser.operators <= kMaxOperators) return false;
   parser.complain({DiagnosticKind::TooManyOperators, parser.here(), {std::to_string(kMaxOperators)}});
   return true;
 }
@@ -180,10 +191,11 @@ Expr parse_term(Parser& parser, const char* what) {
   Expr left = parse_factor(parser, what);
   const auto joins = [&] { return parser.is(TokenKind::star) || parser.is(TokenKind::slash) || parser.is(TokenKind::percent); };
   while (!parser.silent && joins()) {
-    if (too_long(parser)) break;
     const ExprKind kind = parser.is(TokenKind::star) ? ExprKind::mul : parser.is(TokenKind::slash) ? ExprKind::div : ExprKind::mod;
+    const uint32_t deep = parser.operators;
     parser.take();
     left = binary(parser, kind, std::move(left), parse_factor(parser, "an operand"));
+    if (too_long(parser, deep)) break;
   }
   return left;
 }
@@ -197,7 +209,7 @@ std::vector<Expr> parse_arguments(Parser& parser) {
   if (!parser.expect(TokenKind::left_paren)) return arguments;
   if (parser.accept(TokenKind::right_paren)) return arguments;
   do {
-    arguments.push_back(parse_expression(parser));
+    arguments.push_back(parse_part(parser));
   } while (!parser.silent && parser.accept(TokenKind::comma));
   close_list(parser, TokenKind::right_paren);
   return arguments;
@@ -215,16 +227,14 @@ std::vector<Expr> parse_indices(Parser& parser) {
 Expr parse_expression(Parser& parser, const char* what) {
   const Nested nested(parser);
   if (!nested.fits) return {};
-  if (parser.expressions == 0) parser.operators = 0;
-  ++parser.expressions;
   Expr left = parse_term(parser, what);
   while (!parser.silent && (parser.is(TokenKind::plus) || parser.is(TokenKind::minus))) {
-    if (too_long(parser)) break;
     const ExprKind kind = parser.is(TokenKind::plus) ? ExprKind::add : ExprKind::sub;
+    const uint32_t deep = parser.operators;
     parser.take();
     left = binary(parser, kind, std::move(left), parse_term(parser, "an operand"));
+    if (too_long(parser, deep)) break;
   }
-  --parser.expressions;
   return left;
 }
 

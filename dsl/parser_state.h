@@ -16,7 +16,7 @@
 namespace rg::dsl {
 
 constexpr uint32_t kMaxNesting = 100;     // of expressions and blocks; bounds the stack
-constexpr uint32_t kMaxOperators = 1000;  // of one expression; sums nest to the left in the tree, which recursive readers walk
+constexpr uint32_t kMaxOperators = 1000;  // above one another in an expression; sums nest to the left in the tree, which recursive readers walk
 
 struct Parser {
   FileId file;
@@ -25,8 +25,7 @@ struct Parser {
   Diagnostics& diagnostics;
   size_t at = 0;
   uint32_t nesting = 0;
-  uint32_t expressions = 0;  // open ones
-  uint32_t operators = 0;    // of the outermost expression
+  uint32_t operators = 0;  // above one another in the tree of the last expression
   bool silent = false;
   bool any_error = false;
   bool lost_names = false;      // a declaration was skipped

@@ -94,10 +94,21 @@ std::string in_namespace(const std::string& scope, const std::string& text) {
   return scope.empty() ? text : fmt::format("namespace {} {{\n\n{}\n}}  // namespace {}\n", scope, text, scope);
 }
 
+// What the header itself declares, and macros of the headers that it includes.
+bool is_taken(const std::string& name) {
+  constexpr std::string_view kNames[] = {"plan", "pass", "resource", "spectrum", "spirv", "rg", "std", "kFigures", "kPassFigures", "kResourceFigures", "kShaderFigures"};
+  const bool macro = name.starts_with("INT") || name.starts_with("UINT") || name.starts_with("LONG") || name.starts_with("SIZE_") || name.starts_with("CHAR_");
+  const bool limit = macro && (name.ends_with("_MAX") || name.ends_with("_MIN") || name.ends_with("_BIT") || name.ends_with("_C"));
+  return limit || name == "NULL" || name == "EOF" || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
 std::string constants_text(const dsl::Program& program) {
   std::string text;
   std::vector<std::string> names;
-  for (const auto& constant : program.constants) names.push_back(cpp_name(constant.name.substr(constant.name.rfind('.') + 1)));
+  for (const auto& constant : program.constants) {
+    names.push_back(cpp_name(constant.name.substr(constant.name.rfind('.') + 1)));
+    if (is_taken(names.back())) names.back() += '_';
+  }
   names = distinct(std::move(names));
   for (size_t i = 0; i < names.size(); ++i) {
     const int64_t value = program.constants[i].value;

@@ -68,7 +68,9 @@ TEST(Depth, SumsAreFlat) {
   EXPECT_EQ(codes(loaded), Codes{});
   ASSERT_EQ(loaded.result.program.constants.size(), 1u);
   EXPECT_EQ(loaded.result.program.constants[0].value, 1001);
-  EXPECT_EQ(codes(load_text("const A = " + sum + " * 1\n")), Codes{"RG0120"});
+  EXPECT_EQ(codes(load_text("const A = " + sum + " + 1\n")), Codes{"RG0120"});
+  EXPECT_EQ(codes(load_text("const A = (" + sum + ") + 1\n")), Codes{"RG0120"});
+  EXPECT_EQ(codes(load_text("const A = max(" + sum + ", " + sum + ")\n")), Codes{});
 }
 
 TEST(Suggestions, OneNearestIsAFixSeveralAreANote) {

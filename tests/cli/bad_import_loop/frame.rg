@@ -1,0 +1,2 @@
+module frame
+import "loop.rg"
