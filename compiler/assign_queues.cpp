@@ -346,6 +346,15 @@ class Assigner {
 
 }  // namespace
 
+bool runs_at_home(const Frame& frame, uint32_t pass, const PlanOptions& options) {
+  const dsl::Pass& row = frame.pass(pass);
+  const bool elsewhere = row.queue != dsl::QueueKind::graphics && !row.queue_may && queue_of_kind(options, row.queue) != UINT32_MAX;
+  if (elsewhere || options.queues.empty() || options.queues.front() == dsl::QueueKind::graphics) return true;
+  const Stages has = stages_of(options.queues.front());
+  const auto& uses = frame.uses_of(pass);
+  return !clears_depth(frame, row) && std::none_of(uses.begin(), uses.end(), [&](const Use& use) { return (use.effect.stages() & ~has) != 0; });
+}
+
 std::string why_not_on_queue(const Frame& frame, uint32_t pass) {
   Schedule all;
   all.order.resize(frame.passes.size());

@@ -40,6 +40,9 @@ struct QueuePlan {
 // Why a pass cannot run on the queue it names, in any arrangement; empty: it can. What `queue KIND` without `may` asks for is then wrong.
 std::string why_not_on_queue(const Frame& frame, uint32_t pass);
 
+// False for a pass that has to run on the first of `options.queues` and cannot.
+bool runs_at_home(const Frame& frame, uint32_t pass, const PlanOptions& options);
+
 // `one_queue` is the schedule for a single queue, whose order is kept where that leaves no queue idle. `options.queues` are what there is; the first
 // is the home of passes that name no queue.
 QueuePlan assign_queues(const Frame& frame, const Graph& graph, const Schedule& one_queue, const std::vector<double>& costs,

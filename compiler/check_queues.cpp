@@ -10,6 +10,22 @@ namespace rg::compiler {
 
 using dsl::DiagnosticKind;
 
+void check_first_queue(const dsl::Program& program, dsl::GraphId graph, const std::vector<Configuration>& configurations, const PlanOptions& options,
+                       dsl::Diagnostics& diagnostics) {
+  if (options.queues.empty() || options.queues.front() == dsl::QueueKind::graphics) return;
+  for (const Configuration& configuration : configurations) {
+    const Frame frame = expand(program, graph, configuration, {});
+    for (uint32_t i = 0; i < frame.passes.size(); ++i) {
+      if (runs_at_home(frame, i, options)) continue;
+      const dsl::Pass& pass = frame.pass(i);
+      constexpr const char* kPasses[] = {"raster", "compute", "transfer", "host"};
+      const char* queue = options.queues.front() == dsl::QueueKind::compute ? "compute" : "transfer";
+      diagnostics.report(DiagnosticKind::QueueOfKind, pass.span, {kPasses[static_cast<size_t>(pass.kind)], queue});
+      return;  // the others would say the same
+    }
+  }
+}
+
 void check_queues(const dsl::Program& program, dsl::GraphId graph, const std::vector<Configuration>& configurations, dsl::Diagnostics& diagnostics) {
   const auto ordered = [](const dsl::Pass& pass) { return pass.queue != dsl::QueueKind::graphics && !pass.queue_may; };
   const auto& passes = program.graphs[graph].passes;

@@ -207,7 +207,10 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
 
   // What switches name, and queues that passes insist on.
   check_switches(root_path, result.program, options.plan, diagnostics);
-  for (const CompiledGraph& graph : result.graphs) check_queues(result.program, graph.graph, graph.configurations, diagnostics);
+  for (const CompiledGraph& graph : result.graphs) {
+    check_queues(result.program, graph.graph, graph.configurations, diagnostics);
+    check_first_queue(result.program, graph.graph, graph.configurations, options.plan, diagnostics);
+  }
   if (diagnostics.has_errors()) return result;
 
   // Program to plans, one a configuration.

@@ -4,6 +4,7 @@
 
 #include "compiler/merge_features.h"
 #include "compiler/variant_space.h"
+#include "dsl/closest.h"
 
 namespace rg::compiler {
 namespace {
@@ -17,26 +18,41 @@ std::vector<bool> features_of_shaders(const dsl::Program& program, const dsl::Gr
   return used;
 }
 
-// Applies one "NAME=VALUE"; false if there is no such feature or value.
-bool fix(const dsl::Program& program, const std::string& text, Configuration& fixed) {
+std::string listed(const std::vector<std::string_view>& words) {
+  std::string text;
+  for (const std::string_view word : words) text += (text.empty() ? "`" : ", `") + std::string(word) + "`";
+  return text;
+}
+
+void guess(dsl::Diagnostic& error, const std::string& word, const std::vector<std::string_view>& candidates) {
+  if (const std::string meant = dsl::closest(word, candidates); !meant.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {meant});
+}
+
+// Applies one "NAME=VALUE", or reports which part of it is wrong.
+void fix(const dsl::Program& program, const std::string& text, Configuration& fixed, dsl::Diagnostics& diagnostics) {
+  using dsl::DiagnosticKind;
   const size_t equals = text.find('=');
-  if (equals == std::string::npos) return false;
+  if (equals == std::string::npos) return void(diagnostics.report(DiagnosticKind::UnknownFeatureValue, {}, {text}));
+  const std::string name = text.substr(0, equals), value = text.substr(equals + 1);
+  std::vector<std::string_view> features;
   for (size_t f = 0; f < program.features.size(); ++f) {
     const dsl::Feature& feature = program.features.rows[f];
-    if (feature.name != text.substr(0, equals)) continue;
-    const auto value = std::find(feature.values.begin(), feature.values.end(), text.substr(equals + 1));
-    if (value == feature.values.end()) return false;
-    fixed[f] = static_cast<uint32_t>(value - feature.values.begin());
-    return true;
+    features.push_back(feature.name);
+    if (feature.name != name) continue;
+    const std::vector<std::string_view> values(feature.values.begin(), feature.values.end());
+    const auto found = static_cast<uint32_t>(std::find(values.begin(), values.end(), value) - values.begin());
+    if (found == values.size()) return guess(diagnostics.report(DiagnosticKind::UnknownSettingValue, {}, {value, name, listed(values)}), value, values);
+    if (fixed[f] != kFreeFeature && fixed[f] != found) diagnostics.report(DiagnosticKind::RepeatedSetting, {}, {name});
+    fixed[f] = found;
+    return;
   }
-  return false;
+  guess(diagnostics.report(DiagnosticKind::UnknownName, {}, {"feature", name}), name, features);
 }
 
 // For each feature the value it is fixed to, or kFreeFeature.
 Configuration decided(const dsl::Program& program, const std::vector<std::string>& fixed, dsl::Diagnostics& diagnostics) {
   Configuration values(program.features.size(), kFreeFeature);
-  for (const std::string& text : fixed)
-    if (!fix(program, text, values)) diagnostics.report(dsl::DiagnosticKind::UnknownFeatureValue, {}, {text});
+  for (const std::string& text : fixed) fix(program, text, values, diagnostics);
   return values;
 }
 
@@ -55,7 +71,8 @@ void report_too_many(const dsl::Program& program, const dsl::Graph& graph, const
 std::vector<Configuration> expand_configurations(const dsl::Program& program, dsl::GraphId graph, const std::vector<std::string>& fixed, size_t limit,
                                                  dsl::Diagnostics& diagnostics) {
   constexpr uint64_t kBudget = 1 << 18;  // steps of the search
-  const Configuration values = decided(program, fixed, diagnostics);
+  dsl::Diagnostics told;
+  const Configuration values = decided(program, fixed, graph.value == 0 ? diagnostics : told);  // once, however many graphs there are
   std::vector<bool> open = features_of_plans(program, program.graphs[graph]);
   std::vector<bool> selecting = features_of_shaders(program, program.graphs[graph]);
   const std::vector<bool> conditions = features_of_conditions(program, program.graphs[graph]);

@@ -144,8 +144,9 @@ void explain_memory(const PlanData& plan, Decisions& out) {
 }
 
 // What would make a barrier unnecessary.
-std::string remedy(const CellBarrier& b) {
+std::string remedy(const CellBarrier& b, bool image) {
   if (b.src_queue != b.dst_queue) return "; on one queue it would not change hands";
+  if (b.is_acquire && !image) return "; its bytes were in use before, by another resource or in the frame before";
   if (b.is_acquire) return "; a transition every frame: only a `persistent` or `history` image keeps its layout";
   if (b.reason == "layout") return "; `layout general` on the resource would spare it, at the price of slower reads";
   if (b.reason.starts_with("read after write")) return "; gone if the reader did without, or read in the pass that writes";
@@ -158,9 +159,11 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
   for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
     for (const CellBarrier& b : parts.sync.groups[slot]) {
       const std::string reason = fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
-      const std::string& resource = parts.frame.resource_of(b.cell).name;
-      out.push_back({fmt::format("group {}", groups[slot]), "barrier", fmt::format("`{}`: {}{}", resource, reason, remedy(b))});
-      out.push_back({resource, "barrier", fmt::format("in group {}: {}{}", groups[slot], reason, remedy(b))});
+      const dsl::Resource& row = parts.frame.resource_of(b.cell);
+      const std::string& resource = row.name;
+      const std::string change = remedy(b, row.kind == dsl::ResourceKind::image);
+      out.push_back({fmt::format("group {}", groups[slot]), "barrier", fmt::format("`{}`: {}{}", resource, reason, change)});
+      out.push_back({resource, "barrier", fmt::format("in group {}: {}{}", groups[slot], reason, change)});
     }
 }
 

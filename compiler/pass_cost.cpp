@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compiler/expressions.h"
+#include "compiler/parse_json.h"
 
 namespace rg::compiler {
 namespace {
@@ -66,12 +67,13 @@ std::vector<double> pass_costs(const Frame& frame, const std::map<std::string, d
 
 Profile parse_profile(std::string_view text) {
   Profile profile;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto object = parse_json_object(text, profile.wrong);
+  if (!object) return profile;
+  const nlohmann::json& json = *object;
   const auto wrong = [&](const char* why) {
     profile.wrong = why;
     return profile;
   };
-  if (!json.is_object()) return wrong("it is not JSON");
   if (json.value("schema", nlohmann::json()) != "rgc-profile-1") return wrong("its schema is not `rgc-profile-1`");
   if (!json.contains("graph") || !json["graph"].is_string()) return wrong("it does not name its graph");
   if (!json.contains("passes_us") || !json["passes_us"].is_object()) return wrong("it has no object `passes_us`");

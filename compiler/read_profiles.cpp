@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "compiler/parse_json.h"
 #include "compiler/profiles.h"
 
 namespace rg::compiler {
@@ -123,11 +124,12 @@ dsl::Profile row_of(const std::string& name, const Json& profile, const Promise&
 
 // What is wrong with the file, or nothing and its profiles.
 std::string read_file(const std::string& text, dsl::Span span, std::vector<dsl::Profile>& rows) {
-  const Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) return "it is not JSON";
-  const auto capabilities = json.is_object() ? json.find("capabilities") : json.end();
-  const auto profiles = json.is_object() ? json.find("profiles") : json.end();
-  if (!json.is_object() || capabilities == json.end() || profiles == json.end() || !capabilities->is_object() || !profiles->is_object())
+  std::string why;
+  const auto object = parse_json_object(text, why);
+  if (!object) return why;
+  const Json& json = *object;
+  const auto capabilities = json.find("capabilities"), profiles = json.find("profiles");
+  if (capabilities == json.end() || profiles == json.end() || !capabilities->is_object() || !profiles->is_object())
     return "it has no `capabilities` and `profiles`";
   File file{*capabilities, ""};
   for (const auto& [name, profile] : profiles->items()) {

@@ -259,6 +259,29 @@ void check_multiview(const Rules& rules) {
   if (const char* fault = multiview_fault(rules)) rules.checker.report(DiagnosticKind::MultiviewOfPass, rules.pass.span, {rules.pass.name, fault});
 }
 
+// ---- work stays within what every device takes ------------------------------------------------------------------
+
+int64_t greatest(const Rules& rules, ExprId expr) {
+  return expr.valid() ? evaluate(rules.checker.program, expr, maximum_extents(rules.checker.program)) : 0;
+}
+
+void check_amount(const Rules& rules) {
+  constexpr int64_t kMostGroups = 65535, kMostVertices = UINT32_MAX;  // maxComputeWorkGroupCount; what a draw command holds
+  const auto report = [&](std::string what, int64_t most) {
+    rules.checker.report(DiagnosticKind::OutOfRange, rules.pass.span, {std::move(what), "1", std::to_string(most)});
+  };
+  const Dispatch& dispatch = rules.pass.dispatch;
+  const bool sized = !rules.pass.block && (dispatch.kind == DispatchKind::over || dispatch.kind == DispatchKind::groups);  // of blocks later
+  for (size_t axis = 0; sized && axis < 3; ++axis) {
+    const int64_t size = greatest(rules, dispatch.size[axis]), group = dispatch.kind == DispatchKind::over ? dispatch.group[axis] : 1;
+    const int64_t groups = size / group + (size % group != 0);
+    if (groups > kMostGroups) return report("a dispatch of " + std::to_string(groups) + " groups along an axis", kMostGroups);
+  }
+  const Draw& draw = rules.pass.draw;
+  for (const ExprId count : {draw.vertices, draw.instances, draw.first, draw.offset})
+    if (greatest(rules, count) > kMostVertices) return report("a draw of " + std::to_string(greatest(rules, count)), kMostVertices);
+}
+
 void check_state(const Rules& rules) {
   if (!rules.pass.state.valid()) return;
   const State& state = rules.checker.program.states[rules.pass.state];
@@ -365,6 +388,7 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
   if (!roles_fit) return;
   check_attachments(rules);
   check_state(rules);
+  check_amount(rules);
   check_multiview(rules);
   check_conflicts(rules);
   check_names(rules);

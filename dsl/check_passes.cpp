@@ -77,6 +77,8 @@ void visit(Builder& at, const ast::ShaderStatement& node) {
   }
   for (const auto& path : node.paths) add_shader(at, path);
   read_group(at, node);
+  const bool unsized = !at.out.dropped && at.out.pass.kind == PassKind::compute && node.group.empty() && !node.paths.empty();
+  if (unsized) fail(at, DiagnosticKind::ExpectedAfter, node.paths.back().span, {"`group X Y Z`", std::string(node.paths.back().text)});
   if (!node.fullscreen) return;
   at.fullscreen = at.has_draw = true;
   at.draw_span = node.span;

@@ -4,8 +4,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
-#include <map>
 #include <memory>
+#include <type_traits>
+#include <variant>
 
 #include "compiler/commands/command.h"
 #include "compiler/workarounds.h"
@@ -45,6 +46,35 @@ std::string joined(const std::vector<std::string>& names) {
   return text;
 }
 
+// Says what was given, what is allowed and what may have been meant; the word becomes its number, which is what CLI11 makes enums of.
+template <class T>
+CLI::Validator one_of(std::vector<std::pair<std::string, T>> words) {
+  CLI::Validator validator("");
+  validator.operation([words = std::move(words)](std::string& word) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : words) {
+      if (name == word) {
+        if constexpr (!std::is_same_v<T, std::monostate>) word = std::to_string(static_cast<int64_t>(value));
+        return std::string();
+      }
+      names.push_back(name);
+    }
+    const auto meant = nearest(word, names);
+    return "`" + word + "` is none of " + joined(names) + (meant ? "; did you mean `" + *meant + "`?" : "");
+  });
+  return validator;
+}
+
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  std::vector<std::pair<std::string, std::monostate>> words;
+  std::string list;
+  for (const std::string& name : names) {
+    words.emplace_back(name, std::monostate());
+    list += (list.empty() ? "{" : ",") + name;
+  }
+  return one_of(std::move(words)).description(list + "}");
+}
+
 // Each alone switches off everything, with `=NAME,...` only what is named.
 void add_switches(CLI::App& command, compiler::PlanOptions& plan) {
   const auto off = [&](const char* flag, bool& everything, std::set<std::string>& names, const char* help) {
@@ -67,7 +97,25 @@ void add_switches(CLI::App& command, compiler::PlanOptions& plan) {
           "the switches that a driver needs: " + joined(compiler::workaround_names()))
       ->type_name("NAME")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember(compiler::workaround_names()).description(""));
+      ->check(one_of(compiler::workaround_names()).description(""));
+}
+
+constexpr size_t kMostQueues = 16;
+
+void add_queues(CLI::App& command, std::vector<dsl::QueueKind>& queues) {
+  command
+      .add_option_function<std::vector<dsl::QueueKind>>(
+          "--queues",
+          [&queues](const std::vector<dsl::QueueKind>& given) {
+            if (given.size() > kMostQueues)
+              throw CLI::ValidationError("--queues", std::to_string(given.size()) + " queues are too many; the limit is " + std::to_string(kMostQueues));
+            queues = given;
+          },
+          "what the plan may use, graphics first; default: graphics")
+      ->type_name("KIND,...")
+      ->delimiter(',')
+      ->transform(one_of<dsl::QueueKind>(
+          {{"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}}));
 }
 
 // Options that change the plan.
@@ -83,27 +131,19 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
             options.halves = word == "zero" ? compiler::HalfRounding::zero : compiler::HalfRounding::nearest;
           },
           "how images of the device round 16-bit floats: zero (default) or nearest")
-      ->check(CLI::IsMember({"zero", "nearest"}));
-  const std::map<std::string, dsl::QueueKind> kinds = {
-      {"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}};
-  command.add_option("--queues", options.plan.queues, "what the plan may use, graphics first; default: graphics")
-      ->type_name("KIND,...")
-      ->delimiter(',')
-      ->transform(CLI::CheckedTransformer(kinds).description(""))
-      ->check([&options](const std::string&) { return options.plan.queues.size() > 16 ? std::string("at most 16 queues") : std::string(); });
-  const std::map<std::string, compiler::Prefer> preferences = {{"balance", compiler::Prefer::balance},
-                                                               {"time", compiler::Prefer::time},
-                                                               {"memory", compiler::Prefer::memory},
-                                                               {"barriers", compiler::Prefer::barriers},
-                                                               {"order", compiler::Prefer::order}};
+      ->check(one_of({"zero", "nearest"}));
+  add_queues(command, options.plan.queues);
+  using compiler::Effort, compiler::Prefer;
   command.add_option("--prefer", options.plan.prefer, "balance, time, memory, barriers or order")
       ->type_name("WHAT")
-      ->transform(CLI::CheckedTransformer(preferences).description(""));
-  const std::map<std::string, compiler::Effort> efforts = {
-      {"fast", compiler::Effort::fast}, {"default", compiler::Effort::normal}, {"max", compiler::Effort::max}};
+      ->transform(one_of<Prefer>({{"balance", Prefer::balance},
+                                  {"time", Prefer::time},
+                                  {"memory", Prefer::memory},
+                                  {"barriers", Prefer::barriers},
+                                  {"order", Prefer::order}}));
   command.add_option("--effort", options.plan.effort, "of the search for an order: fast, default or max")
       ->type_name("HOW")
-      ->transform(CLI::CheckedTransformer(efforts).description(""));
+      ->transform(one_of<Effort>({{"fast", Effort::fast}, {"default", Effort::normal}, {"max", Effort::max}}));
   add_shader_options(command, options);
   command.add_option("--profile", options.profile, "measured times of passes, frame.profile.json; see docs/planner.md")->type_name("FILE");
 }
@@ -244,7 +284,7 @@ void add_diff(CLI::App& app, Run& run) {
 
 void add_emit(CLI::App& app, Run& run) {
   Subcommand<EmitOptions> command(app, run, "emit", "what a phase gives, as text", emit);
-  command->add_option("STAGE", command.options->stage, "which phase")->required()->check(CLI::IsMember(emit_stages()));
+  command->add_option("STAGE", command.options->stage, "which phase")->required()->check(one_of(emit_stages()));
   command->add_option("FILE", command.options->file, kRootFile)->required();
   add_plan_options(*command.command, command.options->compile);
 }

@@ -65,7 +65,7 @@ std::string used_by(const dsl::Graph& graph, const std::string& name) {
 }
 
 std::vector<std::string> all_names(const dsl::Program& program) {
-  std::vector<std::string> all;
+  std::vector<std::string> all = declaration_names(program);
   for (const dsl::Struct& record : program.structs) all.push_back(record.name);
   for (const dsl::Graph& graph : program.graphs) {
     for (const dsl::Pass& pass : graph.passes) all.push_back(pass.name);
@@ -86,7 +86,8 @@ int explain_name(const ExplainOptions& options) {
   compile.until = compiler::Until::plans, compile.plan.reasons = true;
   const auto result = compile_or_report(options.file_or_code, compile);
   if (!result) return exit_input_wrong;
-  std::string text = explain_struct(result->program, result->sources, options.name);
+  std::string text = explain_struct(result->program, result->sources, options.name) +
+                     explain_declarations(result->program, result->sources, options.name);
   for (const compiler::CompiledGraph& compiled : result->graphs) {
     const dsl::Graph& graph = result->program.graphs[compiled.graph];
     text += declared(*result, graph, options.name) + used_by(graph, options.name);
@@ -107,7 +108,7 @@ int explain_name(const ExplainOptions& options) {
 
 int explain(const ExplainOptions& options) {
   if (options.codes) return list_codes();
-  if (options.name.empty() && is_code(options.file_or_code)) return explain_code(options.file_or_code);
+  if (const std::string code = code_of(options.file_or_code); options.name.empty() && !code.empty()) return explain_code(code);
   if (!options.name.empty()) return explain_name(options);
   fmt::print(stderr, "explain: a file and a name, or a code, or --list is required\nRun with --help for more information.\n");
   return exit_call_wrong;

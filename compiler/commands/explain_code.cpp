@@ -35,8 +35,14 @@ std::string page_text(const Page& page) {
 
 }  // namespace
 
-bool is_code(const std::string& text) {
-  return text.size() == 6 && text.starts_with("RG") && std::all_of(text.begin() + 2, text.end(), [](char c) { return c >= '0' && c <= '9'; });
+std::string code_of(const std::string& text) {
+  std::string upper = text;
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const bool digits = upper.size() == 6 && upper.starts_with("RG") && std::all_of(upper.begin() + 2, upper.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (digits) return upper;
+  for (const DiagnosticKind kind : dsl::all_diagnostic_kinds())
+    if (dsl::row(kind).name == text) return std::string(dsl::row(kind).code);
+  return {};
 }
 
 int explain_code(const std::string& code) {

@@ -4,6 +4,7 @@
 
 #include "compiler/shaders/floor.h"
 #include "compiler/shaders/shader_jobs.h"
+#include "compiler/shaders/stage_interface.h"
 
 namespace rg::compiler {
 namespace {
@@ -108,6 +109,18 @@ void check_features(const PassContext& context, const std::vector<ShaderUse>& us
       for (size_t row = 0; row < use.jobs.size(); ++row)
         used = used || use.keys[row][i] || results[use.jobs[row]].numbers.contains(kFirstFeatureConstant + static_cast<uint32_t>(i));
     if (!used) diagnostics.report(dsl::DiagnosticKind::FeatureNotUsed, feature.span, {feature.name, context.pass.name});
+  }
+}
+
+// Vertex and fragment shaders as they meet in the rows of the pass; other stages between them would have a say.
+void check_interfaces(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results, ShaderPlaces& places,
+                      dsl::Diagnostics& diagnostics) {
+  if (uses.size() != 2 || uses[0].shader.stage != dsl::stage_vertex || uses[1].shader.stage != dsl::stage_fragment) return;
+  std::set<std::pair<size_t, size_t>> checked;
+  for (size_t row = 0; row < uses[0].jobs.size(); ++row) {
+    const size_t vertex = uses[0].jobs[row], fragment = uses[1].jobs[row];
+    if (!checked.emplace(vertex, fragment).second) continue;
+    if (!check_stage_interface(context, uses[0], results[vertex].generic, uses[1], results[fragment].generic, places, diagnostics)) return;
   }
 }
 
@@ -290,6 +303,7 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
     good.push_back(report_pass(context, work.passes[i], results, reported, places, diagnostics));
     const std::vector<StageOutput> stages = good[i] ? stages_of_pass(work.passes[i], results) : std::vector<StageOutput>{};
     if (!stages.empty()) check_agreement(context, stages, places, diagnostics);
+    if (!stages.empty()) check_interfaces(context, work.passes[i], results, places, diagnostics);
     if (!stages.empty()) check_features(context, work.passes[i], results, diagnostics);
     builder.bundle.passes.push_back(pass_shaders(context, stages));
   }

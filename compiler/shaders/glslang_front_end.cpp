@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace rg::compiler {
 namespace {
@@ -37,24 +38,47 @@ class Includer : public glslang::TShader::Includer {
   Includer(ShaderSources& sources, const std::string& path, std::set<std::string>& names) : sources_(sources), path_(path), names_(names) {}
 
   IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
-    if (depth > 32) return nullptr;
+    if (depth > kMostIncludes) return fail(loops_ ? "it includes itself, directly or through others" : "more than 32 files include one another in a row");
     // glslang calls every line of the first level by the name of the first string.
     const std::string from = includer == kPreludeName ? path_ : includer;
+    const char* why = "it is outside the folder of the root file";
     for (const std::string& folder : {folder_of(from), std::string()}) {
       const auto path = resolve_path(folder, header);
       const std::string* found = path ? sources_.find(*path) : nullptr;
+      if (path) why = "there is no such file, or it cannot be read";
       if (found == nullptr) continue;
+      enter(*path, depth);
       names_.insert(*path);
       return new IncludeResult(*path, found->data(), found->size(), nullptr);
     }
-    return nullptr;
+    return fail(why);
   }
+  // glslang asks here too after includeLocal has failed.
+  IncludeResult* includeSystem(const char*, const char*, size_t) override { return fail(std::exchange(why_, kNoSystem)); }
   void releaseInclude(IncludeResult* result) override { delete result; }
 
  private:
+  static constexpr size_t kMostIncludes = 32;
+  static constexpr const char* kNoSystem = "write \"PATH\": there are no files of the system";
+
+  // Without a name, a text is the message that glslang gives.
+  IncludeResult* fail(const char* why) {
+    why_ = why;
+    return new IncludeResult("", why, std::string_view(why).size(), nullptr);
+  }
+  // A file within itself may stop at a guard, so that only the depth counts.
+  void enter(const std::string& path, size_t depth) {
+    inside_.resize(std::min(inside_.size(), depth > 0 ? depth - 1 : 0));
+    loops_ = path == path_ || std::find(inside_.begin(), inside_.end(), path) != inside_.end();
+    inside_.push_back(path);
+  }
+
   ShaderSources& sources_;
   const std::string& path_;
   std::set<std::string>& names_;
+  std::vector<std::string> inside_;  // the files around the current one
+  bool loops_ = false;
+  const char* why_ = kNoSystem;
 };
 
 void start_glslang() {

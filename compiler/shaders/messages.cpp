@@ -30,6 +30,22 @@ std::string restyle(const std::string& message) {
   return word.empty() ? rest : "`" + word + "`: " + rest;
 }
 
+// "'#include' : REASON for header name: x.glsl" -> "cannot include `x.glsl`: REASON"
+std::string include_text(const std::string& message) {
+  constexpr std::string_view kBegin = "'#include' : ", kName = " for header name: ";
+  const size_t begin = message.find(kBegin), name = message.rfind(kName);
+  if (begin == std::string::npos || name == std::string::npos) return restyle(message);
+  const size_t reason = begin + kBegin.size();
+  return "cannot include `" + message.substr(name + kName.size()) + "`: " + message.substr(reason, name - reason);
+}
+
+std::string plain_text(const dsl::Shader& shader, const ShaderMessage& message) {
+  const std::string word = quoted_word(message.text);
+  if (contains(message.text, "Missing entry point")) return "`" + shader.path + "` has no `void main()`";
+  if (word == "#version") return "rgc writes `#version` in front of every shader: leave the line out";
+  return word == "#include" ? include_text(message.text) : restyle(message.text);
+}
+
 // What to write in the pass to get `name`, if the graph has such a thing.
 std::string suggestion(const PassContext& context, const std::string& name) {
   for (const dsl::Resource& resource : context.graph.resources)
@@ -104,8 +120,7 @@ void report_message(const PassContext& context, const dsl::Shader& shader, const
     return;
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
-  const bool no_main = contains(message.text, "Missing entry point");
-  diagnostics.report(DiagnosticKind::ShaderDoesNotCompile, span, {no_main ? "`" + shader.path + "` has no `void main()`" : restyle(message.text)})
+  diagnostics.report(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)})
       .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
 }
 

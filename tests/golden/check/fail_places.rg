@@ -17,7 +17,7 @@ graph g(scene: Scene, surface s: rgba8 4x4) {
   pass p9 : compute { write a.mop(0) as storage }  //~ error[RG0223]: there is no part called `mop`
   pass p10 : compute { write a.mip(0, 1) as storage }  //~ error[RG0225]: `mip` does not take 2 arguments
   pass p11 : compute { write scene.lihgts as storage }  //~ error[RG0203]: there is no resource called `scene.lihgts`
-  pass p13 : compute { shader "x.comp"  write b as storage  dispatch over scene.lights }  //~ error[RG0314]: `scene.lights` is as long as the host makes it; its size is not known here
+  pass p13 : compute { shader "x.comp" group 8 8 1  write b as storage  dispatch over scene.lights }  //~ error[RG0314]: `scene.lights` is as long as the host makes it; its size is not known here
   pass p14 : transfer { copy b -> h.prev(1) }  //~ error[RG0309]: `h.prev(1)` belongs to an earlier frame; only `h` can be written
   pass p15 : compute { write a[0][1] as storage }  //~ error[RG0240]: `a` is declared without an index
   pass p16 : compute { write b.bytes(1.5, 2) as storage }  //~ error[RG0215]: expected a whole number

@@ -16,7 +16,7 @@ graph g(surface s: rgba8 4x4) {
   pass p7 : compute { read levels as sampled  update s as storage }  //~ error[RG0301]: pass `p7` reads `levels`, which nothing has written before
 //~^ note[RG0304]: mip 1, layer 0 of it has not been written
   pass p8 : transfer { fill args 1  fill bytes.bytes(0, 32) 0 }
-  pass p9 : compute { shader "x.comp"  write counted as storage  dispatch indirect args }  //~ error[RG0390]: pass `p9` keeps what it does not touch of `counted`, which nothing has written before; declare `clear` or `covers`
+  pass p9 : compute { shader "x.comp" group 8 8 1  write counted as storage  dispatch indirect args }  //~ error[RG0390]: pass `p9` keeps what it does not touch of `counted`, which nothing has written before; declare `clear` or `covers`
   pass p10 : compute { read bytes as storage  update s as storage }  //~ error[RG0301]: pass `p10` reads `bytes`, which nothing has written before
 //~^ note[RG0304]: a part of it has not been written
 }

@@ -118,12 +118,21 @@ TEST(Configurations, SearchAgreesWithTryingAll) {
 }
 
 TEST(Configurations, UnknownFeatureOrValueIsReported) {
-  for (const char* text : {"dew=on", "fog=maybe", "fog"}) {
+  struct Case {
+    std::vector<std::string> fixed;
+    DiagnosticKind kind;
+    std::vector<std::string> arguments;
+  };
+  const Case cases[] = {{{"dew=on"}, DiagnosticKind::UnknownName, {"feature", "dew"}},
+                        {{"fog=maybe"}, DiagnosticKind::UnknownSettingValue, {"maybe", "fog", "`off`, `on`"}},
+                        {{"fog"}, DiagnosticKind::UnknownFeatureValue, {"fog"}},
+                        {{"fog=on", "fog=off"}, DiagnosticKind::RepeatedSetting, {"fog"}}};
+  for (const Case& each : cases) {
     dsl::Diagnostics diagnostics;
-    expand_configurations(two_features(), dsl::GraphId{0}, {text}, 64, diagnostics);
-    ASSERT_EQ(diagnostics.rows().size(), 1u) << text;
-    EXPECT_EQ(diagnostics.rows()[0].kind, DiagnosticKind::UnknownFeatureValue);
-    EXPECT_EQ(diagnostics.rows()[0].arguments, std::vector<std::string>{text});
+    expand_configurations(two_features(), dsl::GraphId{0}, each.fixed, 64, diagnostics);
+    ASSERT_EQ(diagnostics.rows().size(), 1u) << each.fixed[0];
+    EXPECT_EQ(diagnostics.rows()[0].kind, each.kind) << each.fixed[0];
+    EXPECT_EQ(diagnostics.rows()[0].arguments, each.arguments);
   }
 }
 

@@ -174,8 +174,8 @@ TEST(Modes, WhatDefinesAndWhatKeeps) {
   EXPECT_EQ(mode_of("pass p : raster { fullscreen \"a.frag\"  color s }", 0), Mode::write);
   EXPECT_EQ(mode_of("pass p : raster { fullscreen \"a.frag\"  color s blend add(one, one) }", 0), Mode::update);
   EXPECT_EQ(mode_of("pass p : compute { write s as storage }", 0), Mode::write);
-  EXPECT_EQ(mode_of("pass p : compute { shader \"a.comp\"  write s as storage  dispatch indirect args }", 0), Mode::update);
-  EXPECT_EQ(mode_of("pass p : compute { shader \"a.comp\"  write s as storage covers  dispatch indirect args }", 0), Mode::write);
+  EXPECT_EQ(mode_of("pass p : compute { shader \"a.comp\" group 8 8 1  write s as storage  dispatch indirect args }", 0), Mode::update);
+  EXPECT_EQ(mode_of("pass p : compute { shader \"a.comp\" group 8 8 1  write s as storage covers  dispatch indirect args }", 0), Mode::write);
   EXPECT_EQ(mode_of("pass p : raster { color s  write a as storage }", 1), Mode::update);
   EXPECT_EQ(mode_of("pass p : compute { read s as storage  write s as storage }", 0), Mode::update);
 }

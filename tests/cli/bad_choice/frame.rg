@@ -1,0 +1,6 @@
+module small
+extent view = runtime(64, 64) max(128, 128)
+
+graph frame(surface target: rgba8 view after copy_src) {
+  pass fill : transfer { clear target 0 }
+}

@@ -1,0 +1,2 @@
+// round and round
+#include "loop.glsl"

@@ -1,0 +1,3 @@
+// one
+#include "nowhere.glsl"
+void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(1.0)); }

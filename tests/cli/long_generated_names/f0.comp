@@ -1,0 +1,1 @@
+void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); imageStore(target, at, imageLoad(target, at) * 2.0); }
