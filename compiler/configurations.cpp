@@ -25,7 +25,7 @@ std::string listed(const std::vector<std::string_view>& words) {
 }
 
 void guess(dsl::Diagnostic& error, const std::string& word, const std::vector<std::string_view>& candidates) {
-  if (const std::string meant = dsl::closest(word, candidates); !meant.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {meant});
+  if (const std::string meant = dsl::closest(word, candidates).shown(); !meant.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {meant});
 }
 
 // Applies one "NAME=VALUE", or reports which part of it is wrong.

@@ -68,14 +68,15 @@ struct Extents {
 struct Imports {
   rg::Required<rg::ImportedBuffer> scene_lights;  // recorders.rg:16
   rg::Required<rg::ImportedBuffer> scene_vertices;  // recorders.rg:17
-  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:24
+  rg::Unused<rg::ImportedBuffer> scene_spare;  // recorders.rg:18
+  rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:25
 };
 
 // Parameter blocks, copied when the frame is recorded.
 struct Params {
-  View view_constants = {};  // recorders.rg:24
-  Blur bloom_down_1_blur = {};  // recorders.rg:61
-  Blur bloom_down_2_blur = {};  // recorders.rg:61
+  View view_constants = {};  // recorders.rg:25
+  Blur bloom_down_1_blur = {};  // recorders.rg:62
+  Blur bloom_down_2_blur = {};  // recorders.rg:62
 };
 
 // Descriptor sets the engine owns.
@@ -85,7 +86,7 @@ struct EngineSets {
 
 // Bytes that update statements copy.
 struct Updates {
-  std::span<const std::byte> table = {};  // recorders.rg:32
+  std::span<const std::byte> table = {};  // recorders.rg:33
 };
 
 // Latched when the frame is recorded.
@@ -95,10 +96,10 @@ struct Conditions {
 
 // ---- passes the host records: what a recorder's methods are given
 
-struct MeshesPass : rg::RasterRecording {  // recorders.rg:35
+struct MeshesPass : rg::RasterRecording {  // recorders.rg:36
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
-struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:47
+struct OwnPipelinesPass : rg::RasterRecording {  // recorders.rg:48
   void push(const Draw& per_draw) const { rg::push_constants(*this, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, per_draw); }
 };
 
@@ -195,7 +196,7 @@ class Frame : public rg::TypedFrame {
     return submit(imports, params, engine_sets, updates, conditions, callbacks, &recorder);
   }
 
-  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:30
+  // `counted` of the last finished frame; waits for it. Valid until the next execute.  recorders.rg:31
   rg::Result<std::span<const uint32_t>> counted();
 
  private:

@@ -60,17 +60,17 @@ constexpr Resource kResources[] = {
     {.name = "scene.vertices", .kind = ResourceKind::buffer, .lifetime = Lifetime::imported, .usage = 128, .bytes = 15, .stride = 32,
      .layout = 793637526, .import_slot = 1, .estimated_bytes = 256, .line = 17, .file = "recorders.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 16,
-     .is_surface = true, .import_slot = 2, .estimated_bytes = 65536, .line = 24, .file = "recorders.rg"},
+     .is_surface = true, .import_slot = 3, .estimated_bytes = 65536, .line = 25, .file = "recorders.rg"},
     {.name = "depth", .format = Format{126}, .width = 0, .height = 1, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 26, .file = "recorders.rg"},
+     .estimated_alignment = 65536, .line = 27, .file = "recorders.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 0, .height = 1, .aspects = aspect_color, .usage = 22, .copies = 2,
-     .init = InitKind::clear, .estimated_bytes = 65536, .line = 27, .file = "recorders.rg"},
+     .init = InitKind::clear, .estimated_bytes = 65536, .line = 28, .file = "recorders.rg"},
     {.name = "bloom", .format = Format{97}, .width = 3, .height = 4, .mips = 3, .aspects = aspect_color, .usage = 12, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 28, .file = "recorders.rg"},
+     .estimated_alignment = 65536, .line = 29, .file = "recorders.rg"},
     {.name = "table", .kind = ResourceKind::buffer, .usage = 34, .bytes = 17, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 65536, .line = 29, .file = "recorders.rg"},
+     .estimated_alignment = 256, .estimated_offset = 65536, .line = 30, .file = "recorders.rg"},
     {.name = "counted", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 18, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 256, .line = 30, .file = "recorders.rg"},
+     .estimated_bytes = 256, .line = 31, .file = "recorders.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -116,26 +116,26 @@ constexpr Access kAccesses[] = {
 
 constexpr Pass kPasses[] = {
     {.name = "fill_table", .module = "recorders", .kind = PassKind::transfer, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 32, .file = "recorders.rg"},
+     .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 33, .file = "recorders.rg"},
     {.name = "meshes", .module = "recorders", .kind = PassKind::raster, .first_access = 1, .access_count = 5, .rendering = 0, .pipeline = 0,
      .binding_count = 3, .params_count = 1, .push_bytes = 32, .push_stages = 17, .push_layout = 1658585901, .engine_set = 0,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 35, .file = "recorders.rg"},
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 36, .file = "recorders.rg"},
     {.name = "own_pipelines", .module = "recorders", .kind = PassKind::raster, .first_access = 6, .access_count = 2, .rendering = 0, .push_bytes = 32,
-     .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 47, .file = "recorders.rg"},
+     .push_stages = 17, .push_layout = 1658585901, .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 48, .file = "recorders.rg"},
     {.name = "count.clear", .module = "recorders", .kind = PassKind::transfer, .guard = 1, .first_access = 8, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 68, .file = "recorders.rg"},
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 1}, .line = 69, .file = "recorders.rg"},
     {.name = "count", .module = "recorders", .kind = PassKind::compute, .guard = 1, .first_access = 9, .access_count = 2, .pipeline = 1,
-     .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 1, .z = 7}, .line = 68, .file = "recorders.rg"},
+     .first_binding = 3, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 19, .y = 1, .z = 7}, .line = 69, .file = "recorders.rg"},
     {.name = "bloom_first", .module = "recorders", .kind = PassKind::compute, .first_access = 11, .access_count = 2, .pipeline = 2,
-     .first_binding = 5, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 21, .y = 22, .z = 7}, .line = 52, .file = "recorders.rg"},
+     .first_binding = 5, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 21, .y = 22, .z = 7}, .line = 53, .file = "recorders.rg"},
     {.name = "bloom_down[1]", .module = "recorders", .kind = PassKind::compute, .first_access = 13, .access_count = 2, .pipeline = 3,
      .first_binding = 7, .binding_count = 3, .first_params = 1, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 23, .y = 24, .z = 7},
-     .mip_limit_count = 1, .line = 59, .file = "recorders.rg"},
+     .mip_limit_count = 1, .line = 60, .file = "recorders.rg"},
     {.name = "bloom_down[2]", .module = "recorders", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
      .first_binding = 10, .binding_count = 3, .first_params = 2, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 25, .y = 26, .z = 7},
-     .first_mip_limit = 1, .mip_limit_count = 2, .line = 59, .file = "recorders.rg"},
+     .first_mip_limit = 1, .mip_limit_count = 2, .line = 60, .file = "recorders.rg"},
     {.name = "show", .module = "recorders", .kind = PassKind::raster, .first_access = 17, .access_count = 4, .rendering = 1, .pipeline = 5,
-     .first_binding = 13, .binding_count = 3, .work = {.kind = WorkKind::draw, .x = 27}, .line = 75, .file = "recorders.rg"},
+     .first_binding = 13, .binding_count = 3, .work = {.kind = WorkKind::draw, .x = 27}, .line = 76, .file = "recorders.rg"},
 };
 
 constexpr MipLimit kMipLimits[] = {
@@ -196,13 +196,13 @@ constexpr BufferBarrier kBufferBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {.buffer_count = 1},  // before fill_table  recorders.rg:32
-    {.image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:35
-    {.first_image = 2, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before count  recorders.rg:68
-    {.first_image = 3, .image_count = 3},  // before bloom_first  recorders.rg:52
-    {.first_image = 6, .image_count = 1},  // before bloom_down[1]  recorders.rg:59
-    {.first_image = 7, .image_count = 1},  // before bloom_down[2]  recorders.rg:59
-    {.first_image = 8, .image_count = 2},  // before show  recorders.rg:75
+    {.buffer_count = 1},  // before fill_table  recorders.rg:33
+    {.image_count = 2, .first_buffer = 1, .buffer_count = 1},  // before meshes  recorders.rg:36
+    {.first_image = 2, .image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before count  recorders.rg:69
+    {.first_image = 3, .image_count = 3},  // before bloom_first  recorders.rg:53
+    {.first_image = 6, .image_count = 1},  // before bloom_down[1]  recorders.rg:60
+    {.first_image = 7, .image_count = 1},  // before bloom_down[2]  recorders.rg:60
+    {.first_image = 8, .image_count = 2},  // before show  recorders.rg:76
     {.first_image = 10, .image_count = 1, .first_buffer = 3, .buffer_count = 1},  // at the end of the frame
 };
 
@@ -448,6 +448,7 @@ rg::Status Frame::submit(const Imports& imports, const Params& params, const Eng
   const rg::Import import_rows[] = {
       {.buffer = imports.scene_lights.value},
       {.buffer = imports.scene_vertices.value},
+      {},  // scene_spare
       {.image = imports.backbuffer.value},
   };
   inputs.imports = import_rows;
