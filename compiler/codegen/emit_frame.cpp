@@ -13,7 +13,10 @@ void member_struct(CppWriter& out, const char* name, const char* what, const std
   if (members.empty()) return;
   out.line(std::string("// ") + what);
   out.line(std::string("struct ") + name + " {");
-  for (const ApiMember& member : members) out.line("  " + member.type + " " + member.name + initial + ";" + behind(member.comment));
+  for (const ApiMember& member : members) {
+    const char* value = member.type.starts_with(kUnusedImport) ? " = {}" : initial;  // an engine that leaves it out is not warned
+    out.line("  " + member.type + " " + member.name + value + ";" + behind(member.comment));
+  }
   out.line("};").line();
 }
 

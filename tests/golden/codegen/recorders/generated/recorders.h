@@ -68,7 +68,7 @@ struct Extents {
 struct Imports {
   rg::Required<rg::ImportedBuffer> scene_lights;  // recorders.rg:16
   rg::Required<rg::ImportedBuffer> scene_vertices;  // recorders.rg:17
-  rg::Unused<rg::ImportedBuffer> scene_spare;  // recorders.rg:18
+  rg::Unused<rg::ImportedBuffer> scene_spare = {};  // recorders.rg:18
   rg::Required<rg::ImportedImage> backbuffer;  // recorders.rg:25
 };
 
