@@ -79,7 +79,7 @@ bool of_pass(Role role, PassKind kind) {
       return kind == PassKind::raster || kind == PassKind::transfer;
     case Role::host_read:
     case Role::host_write:
-      return kind == PassKind::host;
+      return false;
     default:
       return kind == PassKind::transfer;
   }
