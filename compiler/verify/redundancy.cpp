@@ -1,7 +1,10 @@
 #include "compiler/verify/redundancy.h"
 
+#include <algorithm>
 #include <bit>
 #include <string>
+
+#include "dsl/symbolic.h"
 
 namespace rg::verify {
 namespace {
@@ -39,20 +42,55 @@ bool retires_frame(const Model& model, const Scope& scope) { return scope.kind =
 
 bool is_constant(const dsl::Program& program, dsl::ExprId id) { return !id.valid() || program.exprs[id].op == dsl::ExprOp::constant; }
 
-// Buffers of which passes touch ranges that depend on extents: what these extents do not need, others may.
-std::vector<bool> cut_by_extents(const Model& model) {
-  std::vector<bool> found(model.resources.size());
+struct Edge {  // of a range of bytes
+  dsl::Polynomial at = dsl::Polynomial(0);
+  int64_t here = 0;  // at the extents of the model
+};
+bool operator==(const Edge& a, const Edge& b) { return a.at.terms() == b.at.terms(); }
+
+// Whether the ranges lie to one another as they do here at all extents, but for pieces that may be empty elsewhere.
+bool lie_alike(dsl::Formulas& formulas, const std::vector<Edge>& edges) {
+  constexpr size_t kMostEdges = 64;
+  if (edges.size() > kMostEdges || std::any_of(edges.begin(), edges.end(), [](const Edge& edge) { return edge.at.overflown(); })) return false;
+  for (const Edge& a : edges)
+    for (const Edge& b : edges)
+      if (!(a == b) && (a.here == b.here || (a.here > b.here && !formulas.never_negative(a.at - b.at)))) return false;
+  return true;
+}
+
+// Buffers of which passes touch ranges that depend on extents and may lie otherwise at others: what these extents do not need, others may.
+std::vector<bool> cut_by_extents(const Model& model, const std::vector<int64_t>& extents) {
+  const dsl::Program& program = model.input->program;
+  dsl::Formulas formulas(program);
+  std::vector<bool> varies(model.resources.size());
+  std::vector<std::vector<Edge>> edges(model.resources.size(), {Edge{}});
+  const auto add = [&](uint32_t resource, Edge edge) {
+    if (std::find(edges[resource].begin(), edges[resource].end(), edge) == edges[resource].end()) edges[resource].push_back(std::move(edge));
+  };
   for (const dsl::Pass& pass : model.input->graph.passes)
-    for (const dsl::Access& access : pass.accesses)
-      if (!is_constant(model.input->program, access.range.offset) || !is_constant(model.input->program, access.range.size))
-        found[access.resource.value] = true;
-  return found;
+    for (const dsl::Access& access : pass.accesses) {
+      const dsl::Range& range = access.range;
+      if (!range.offset.valid()) continue;
+      const uint32_t r = access.resource.value;
+      varies[r] = varies[r] || !is_constant(program, range.offset) || !is_constant(program, range.size);
+      const Edge begin{formulas.of(range.offset), dsl::evaluate(program, range.offset, extents)};
+      add(r, begin);
+      add(r, {begin.at + formulas.of(range.size), begin.here + dsl::evaluate(program, range.size, extents)});
+    }
+  for (uint32_t r = 0; r < varies.size(); ++r) {
+    if (!varies[r]) continue;
+    const dsl::Resource& buffer = model.input->graph.resources.rows[r];
+    if (buffer.count.valid())
+      add(r, {formulas.of(buffer.count) * dsl::Polynomial(buffer.stride), dsl::evaluate(program, buffer.count, extents) * buffer.stride});
+    varies[r] = !lie_alike(formulas, edges[r]);
+  }
+  return varies;
 }
 
 }  // namespace
 
-void check_redundancy(const Model& model, const std::vector<bool>& required, Report& report) {
-  const std::vector<bool> varies = cut_by_extents(model);
+void check_redundancy(const Model& model, const std::vector<int64_t>& extents, const std::vector<bool>& required, Report& report) {
+  const std::vector<bool> varies = cut_by_extents(model, extents);
   for (uint32_t id = 0; id < model.scopes.size(); ++id) {
     const Scope& scope = model.scopes[id];
     if (scope.kind == ScopeKind::buffer && varies[scope.resource]) continue;

@@ -7,7 +7,7 @@
 
 namespace rg::verify {
 
-// Only barriers tagged `hazard` have to justify themselves.
-void check_redundancy(const Model& model, const std::vector<bool>& required, Report& report);
+// Only barriers tagged `hazard` have to justify themselves. Buffers whose ranges may lie otherwise to one another at other extents are not judged.
+void check_redundancy(const Model& model, const std::vector<int64_t>& extents, const std::vector<bool>& required, Report& report);
 
 }  // namespace rg::verify

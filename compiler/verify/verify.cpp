@@ -75,9 +75,9 @@ void find_redundancy(const Input& input, const std::vector<int64_t>& extents, co
                      SyncResult& sync, Report& report) {
   require_declared_order(model, sync.required);
   Report apart(1);
-  check_redundancy(model, sync.required, apart);
+  check_redundancy(model, extents, sync.required, apart);
   if (!apart.empty()) require_united(input, extents, partitions, model, sync.required, report);
-  check_redundancy(model, sync.required, report);
+  check_redundancy(model, extents, sync.required, report);
   check_release_redundancy(model, sync.released, report);
 }
 

@@ -124,6 +124,29 @@ TEST(PlannerFuzz, ShrunkProgramsStayRight) {
   EXPECT_GT(files, 0u);
 }
 
+// Ranges that depend on extents: what could go is found where they lie alike at all extents, and not called so where others may need it.
+TEST(Redundancy, IsJudgedOfRangesThatLieAlikeAtAllExtents) {
+  const auto with_a_stage_too_many = [](const std::string& begin) {
+    const auto program = load("module m\nextent n = runtime(64) min(2) max(1000)\nextent m = runtime(8) max(16)\ngraph frame() {\n"
+                              " buffer words : u32[n]\n buffer all : u32[n] output\n"
+                              " pass left : compute { write words.bytes(0, n / 2 * 4) as storage }\n"
+                              " pass right : compute { write words.bytes(" + begin + ", 4) as storage }\n"
+                              " pass more : compute { read words.bytes(0, n / 2 * 4) as storage  write all as storage }\n}\n");
+    EXPECT_TRUE(program);
+    PlanData plan = compiler::plan_frame(*program, kGraph, {}, {}).plan;
+    verify::VerifyOptions options;
+    options.irredundancy = true;
+    const auto findings = [&] { return verify::verify(*program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, options); };
+    EXPECT_TRUE(findings().empty());
+    const auto reads = std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), [](const BufferBarrier& b) { return b.src_accesses != 0; });
+    if (reads == plan.buffer_barriers.end()) return ADD_FAILURE() << "no barrier", size_t{0};
+    reads->dst_stages |= stage::vertex_shader;
+    return findings().size();
+  };
+  EXPECT_EQ(with_a_stage_too_many("n / 2 * 4"), 1u);
+  EXPECT_EQ(with_a_stage_too_many("m * 4"), 0u);
+}
+
 TEST(PlannerFuzz, ShrinkingKeepsTheFailure) {
   const std::string text = "a\nb\nc\nneedle\nd\n";
   EXPECT_EQ(shrink(text, [](const std::string& less) { return less.find("needle") != std::string::npos; }), "needle\n");
