@@ -2,14 +2,12 @@
 // Each pass is a submit of its own. What is compared is drawn by turns, so that other work on the machine falls on both.
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <map>
-#include <sstream>
 
 #include "bench/rows.h"
-#include "compiler/codegen/plan_file.h"
-#include "compiler/compile.h"
+#include "compiler/commands/command.h"
+#include "compiler/commands/files.h"
 #include "examples/demo/plaza.h"
 #include "examples/demo/renderer.h"
 
@@ -24,21 +22,13 @@ void give_up(const Error& error) { std::fprintf(stderr, "frame left out: %s\n", 
 
 // The frame with every block a kernel of its own, as a plan that the demo's program can run.
 std::optional<PlanFile> unfused_plan() {
-  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return why = "no such file", std::nullopt;
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  };
   dsl::Diagnostics diagnostics;
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;
   options.fuse = false;
-  const compiler::CompileResult result = compiler::compile("passes.rg", read, options, diagnostics);
+  const compiler::CompileResult result = compiler::compile("passes.rg", commands::reader_for("passes.rg"), options, diagnostics);
   if (diagnostics.has_errors() || result.graphs.empty()) return std::nullopt;
-  const Plan plan = result.graphs[0].plans[0].plan.view();
-  const std::string bytes = compiler::emit_plan_file({&plan, 1});
+  const std::string bytes = commands::plan_file({}, result).text;
   auto file = PlanFile::parse(std::as_bytes(std::span(bytes)), "passes.rg");
   if (!file) return give_up(file.error()), std::nullopt;
   return *file;

@@ -1,12 +1,10 @@
 // passes.rg planned with each combination of the planner's switches, on two queues, loaded as a plan file and drawn: the pictures are the same to the bit.
 #include <bit>
 #include <cstdlib>
-#include <fstream>
 #include <set>
-#include <sstream>
 
-#include "compiler/codegen/plan_file.h"
-#include "compiler/compile.h"
+#include "compiler/commands/command.h"
+#include "compiler/commands/files.h"
 #include "lab.h"
 
 namespace rg::test {
@@ -31,24 +29,15 @@ std::string names_of(uint32_t thrown) {
 
 // The plan as the bytes of a file. Shaders are compiled for the first and found in the cache for the others.
 std::string planned(uint32_t thrown) {
-  const dsl::ReadSource read = [](const std::string& path, std::string& why) -> std::optional<std::string> {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return why = "no such file", std::nullopt;
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-  };
+  const std::string root = std::string(RGC_SOURCE_DIR) + "/passes.rg";
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;
   options.plan = options_of(thrown);
   options.cache_folder = std::string(RGC_BINARY_DIR) + "/tests/switches_cache";
   dsl::Diagnostics diagnostics;
-  const compiler::CompileResult result = compiler::compile(std::string(RGC_SOURCE_DIR) + "/passes.rg", read, options, diagnostics);
+  const compiler::CompileResult result = compiler::compile(root, commands::reader_for(root), options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);
-  std::vector<Plan> plans;
-  for (const compiler::CompiledGraph& graph : result.graphs)
-    for (const compiler::FramePlan& plan : graph.plans) plans.push_back(plan.plan.view());
-  return compiler::emit_plan_file(plans);
+  return commands::plan_file({}, result).text;
 }
 
 // Frames of the plan, which a new renderer takes over before its first.
