@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <random>
 #include <string>
-
-#include "dsl/symbolic.h"
 
 namespace rg::verify {
 namespace {
@@ -42,47 +41,73 @@ bool retires_frame(const Model& model, const Scope& scope) { return scope.kind =
 
 bool is_constant(const dsl::Program& program, dsl::ExprId id) { return !id.valid() || program.exprs[id].op == dsl::ExprOp::constant; }
 
-struct Edge {  // of a range of bytes
-  dsl::Polynomial at = dsl::Polynomial(0);
-  int64_t here = 0;  // at the extents of the model
-};
-bool operator==(const Edge& a, const Edge& b) { return a.at.terms() == b.at.terms(); }
+// Of the extents: those of the model, then all corners of their bounds where those are few, and some between them. What is linear in every extent, as sizes are but for
+// rounding, is least and greatest in corners.
+std::vector<std::vector<int64_t>> sampled_extents(const dsl::Program& program, const std::vector<int64_t>& here) {
+  constexpr size_t kMostAxes = 6, kRandom = 200;
+  std::vector<int64_t> least, greatest;
+  for (const dsl::Extent& extent : program.extents)
+    least.insert(least.end(), extent.minimum, extent.minimum + 3), greatest.insert(greatest.end(), extent.maximum, extent.maximum + 3);
+  std::vector<size_t> axes;
+  for (size_t i = 0; i < least.size(); ++i)
+    if (least[i] != greatest[i]) axes.push_back(i);
+  std::vector<std::vector<int64_t>> samples = {here};
+  for (size_t corner = 0; axes.size() <= kMostAxes && corner < size_t{1} << axes.size(); ++corner) {
+    samples.push_back(least);
+    for (size_t i = 0; i < axes.size(); ++i)
+      if (corner >> i & 1) samples.back()[axes[i]] = greatest[axes[i]];
+  }
+  std::mt19937_64 random(1);
+  for (size_t i = 0; i < kRandom; ++i) {
+    samples.push_back(least);
+    for (const size_t axis : axes) samples.back()[axis] += static_cast<int64_t>(random() % static_cast<uint64_t>(greatest[axis] - least[axis] + 1));
+  }
+  return samples;
+}
 
-// Whether the ranges lie to one another as they do here at all extents, but for pieces that may be empty elsewhere.
-bool lie_alike(dsl::Formulas& formulas, const std::vector<Edge>& edges) {
+using Edge = std::vector<int64_t>;  // of a range of bytes, by sample; the first is the model's
+
+// Whether the ranges lie to one another as they do in the model in all samples, but for pieces that are empty elsewhere.
+bool lie_alike(const std::vector<Edge>& edges) {
   constexpr size_t kMostEdges = 64;
-  if (edges.size() > kMostEdges || std::any_of(edges.begin(), edges.end(), [](const Edge& edge) { return edge.at.overflown(); })) return false;
+  if (edges.size() > kMostEdges) return false;
   for (const Edge& a : edges)
-    for (const Edge& b : edges)
-      if (!(a == b) && (a.here == b.here || (a.here > b.here && !formulas.never_negative(a.at - b.at)))) return false;
+    for (const Edge& b : edges) {
+      if (&a == &b) continue;
+      if (a[0] == b[0]) return false;
+      for (size_t i = 1; i < a.size(); ++i)
+        if (a[0] < b[0] && a[i] > b[i]) return false;
+    }
   return true;
 }
 
-// Buffers of which passes touch ranges that depend on extents and may lie otherwise at others: what these extents do not need, others may.
+// Buffers of which passes touch ranges that depend on extents and lie otherwise at others: what these extents do not need, others may.
 std::vector<bool> cut_by_extents(const Model& model, const std::vector<int64_t>& extents) {
   const dsl::Program& program = model.input->program;
-  dsl::Formulas formulas(program);
   std::vector<bool> varies(model.resources.size());
-  std::vector<std::vector<Edge>> edges(model.resources.size(), {Edge{}});
-  const auto add = [&](uint32_t resource, Edge edge) {
+  for (const dsl::Pass& pass : model.input->graph.passes)
+    for (const dsl::Access& access : pass.accesses)
+      if (!is_constant(program, access.range.offset) || !is_constant(program, access.range.size)) varies[access.resource.value] = true;
+  if (std::find(varies.begin(), varies.end(), true) == varies.end()) return varies;
+  const std::vector<std::vector<int64_t>> samples = sampled_extents(program, extents);
+  std::vector<std::vector<Edge>> edges(varies.size(), {Edge(samples.size(), 0)});
+  const auto add = [&](uint32_t resource, dsl::ExprId offset, dsl::ExprId size, int64_t stride) {
+    Edge edge;
+    for (const std::vector<int64_t>& sample : samples)
+      edge.push_back((offset.valid() ? dsl::evaluate(program, offset, sample) : 0) + (size.valid() ? dsl::evaluate(program, size, sample) * stride : 0));
     if (std::find(edges[resource].begin(), edges[resource].end(), edge) == edges[resource].end()) edges[resource].push_back(std::move(edge));
   };
   for (const dsl::Pass& pass : model.input->graph.passes)
     for (const dsl::Access& access : pass.accesses) {
-      const dsl::Range& range = access.range;
-      if (!range.offset.valid()) continue;
-      const uint32_t r = access.resource.value;
-      varies[r] = varies[r] || !is_constant(program, range.offset) || !is_constant(program, range.size);
-      const Edge begin{formulas.of(range.offset), dsl::evaluate(program, range.offset, extents)};
-      add(r, begin);
-      add(r, {begin.at + formulas.of(range.size), begin.here + dsl::evaluate(program, range.size, extents)});
+      if (!varies[access.resource.value] || !access.range.offset.valid()) continue;
+      add(access.resource.value, access.range.offset, {}, 1);
+      add(access.resource.value, access.range.offset, access.range.size, 1);
     }
   for (uint32_t r = 0; r < varies.size(); ++r) {
     if (!varies[r]) continue;
     const dsl::Resource& buffer = model.input->graph.resources.rows[r];
-    if (buffer.count.valid())
-      add(r, {formulas.of(buffer.count) * dsl::Polynomial(buffer.stride), dsl::evaluate(program, buffer.count, extents) * buffer.stride});
-    varies[r] = !lie_alike(formulas, edges[r]);
+    if (buffer.count.valid()) add(r, {}, buffer.count, buffer.stride);
+    varies[r] = !lie_alike(edges[r]);
   }
   return varies;
 }
