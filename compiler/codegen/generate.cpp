@@ -9,6 +9,7 @@
 #include "compiler/codegen/emit_structs.h"
 #include "compiler/codegen/frame_api.h"
 #include "dsl/check_macro.h"
+#include "runtime/plan_fields.h"
 
 namespace rg::compiler {
 namespace {
@@ -28,9 +29,7 @@ std::string banner(const dsl::SourceFiles& files, const std::string& command) {
 std::string file_stem(const std::string& name) {
   constexpr size_t kLongest = 100, kKept = 80;
   if (name.size() <= kLongest) return name;
-  uint64_t number = 0xcbf29ce484222325;
-  for (const char c : name) number = (number ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("{}_{:016x}", name.substr(0, kKept), number);
+  return fmt::format("{}_{:016x}", name.substr(0, kKept), plan_file::checksum(name));
 }
 
 // ---- shaders

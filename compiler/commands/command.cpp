@@ -3,32 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
 
 #include "compiler/commands/files.h"
+#include "dsl/closest.h"
 
 namespace rg::commands {
 namespace {
 
 bool wants_colour() { return ::isatty(STDERR_FILENO) && !std::getenv("NO_COLOR"); }
-
-// Levenshtein distance; O(|a| |b|).
-size_t edits(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0]++;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t substitute = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({substitute, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
 
 }  // namespace
 
@@ -74,15 +58,8 @@ std::string counted(size_t count, std::string_view noun, std::string_view plural
 }
 
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates) {
-  const std::string* best = nullptr;
-  size_t best_edits = 1 + (name.size() <= 3 ? 1 : std::max<size_t>(2, name.size() / 3));  // exclusive
-  for (const std::string& candidate : candidates) {
-    const size_t distance = edits(name, candidate);
-    if (distance >= best_edits) continue;
-    best_edits = distance;
-    best = &candidate;
-  }
-  return best ? std::optional(*best) : std::nullopt;
+  const std::string meant = dsl::closest(name, {candidates.begin(), candidates.end()}).shown();
+  return meant.empty() ? std::nullopt : std::optional(meant);
 }
 
 }  // namespace rg::commands

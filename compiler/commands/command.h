@@ -108,7 +108,7 @@ void print(std::string_view text);
 // "31 passes", "1 pass".
 std::string counted(size_t count, std::string_view noun, std::string_view plural = {});
 
-// The candidate nearest to `name` by edits, if it is near enough to be meant.
+// Those of the candidates that `name` may be a slip of, to stand between backquotes ("a` or `b").
 std::optional<std::string> nearest(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace rg::commands
