@@ -80,8 +80,9 @@ mkdir -p "$work/alone" && cp -r "$source_dir/runtime" "$source_dir/packaging" "$
 cp "$source_dir/CMakeLists.txt" "$work/alone/" && cp -r "$source_dir/generated" "$work/alone/"
 off=()
 for package in glslang SPIRV-Tools SPIRV-Tools-opt nlohmann_json fmt CLI11 glm TinyGLTF GTest; do off+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON"); done
-quietly cmake -S "$work/alone" -B "$work/alone/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug -DRGC_BUILD_COMPILER=OFF -DRGC_BUILD_EXAMPLES=OFF -DRGC_BUILD_TESTS=OFF "${off[@]}" &&
-  quietly cmake --build "$work/alone/build"
+# What is compiled is what the build has compiled, in another place: with paths relative to it, a compiler cache serves both.
+CCACHE_BASEDIR="$work/alone" quietly cmake -S "$work/alone" -B "$work/alone/build" -G Ninja -DRGC_BUILD_COMPILER=OFF -DRGC_BUILD_EXAMPLES=OFF -DRGC_BUILD_TESTS=OFF "${off[@]}" &&
+  CCACHE_BASEDIR="$work/alone" quietly cmake --build "$work/alone/build"
 verdict "runtime/ and generated/ build without the compiler and its libraries" $?
 quietly cmake --install "$work/alone/build" --prefix "$work/target" && [ ! -e "$work/target/bin/rgc" ]
 verdict "a package for the target holds no compiler" $?
