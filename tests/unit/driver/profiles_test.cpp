@@ -14,10 +14,14 @@ using dsl::DiagnosticKind;
 
 struct Case {
   std::string frame, profile;
+  std::string shader = {};
 };
 
+constexpr const char* kNoProfile = "none";
+
 dsl::Diagnostics check(const Case& input) {
-  const std::map<std::string, std::string> files = {{"frame.rg", "target profile \"p.json\"\n" + input.frame}, {"p.json", input.profile}};
+  const std::string target = input.profile == kNoProfile ? "" : "target profile \"p.json\"\n";
+  const std::map<std::string, std::string> files = {{"frame.rg", target + input.frame}, {"p.json", input.profile}, {"p.comp", input.shader}};
   const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
     const auto at = files.find(path);
     if (at != files.end()) return at->second;
@@ -76,6 +80,29 @@ TEST(Profiles, LimitsCountAtTheLargestExtents) {
             "the largest side of image `a` is 8192, and profile `VP_TEST` promises only 4096 (`maxImageDimension2D`)");
   // A limit the file does not name is Vulkan's own minimum.
   EXPECT_EQ(check({frame, profile("")}).rows().size(), 2u);
+}
+
+// Arrays of a shader are no declaration of the frame: what they take is judged once the shader is compiled.
+TEST(Profiles, SharedMemoryHasALimit) {
+  const std::string frame =
+      "graph g(surface s: rgba8 64x64) { image a : rgba16f 64x64 pass p : compute { shader \"p.comp\" group 64 1 1 write a as storage dispatch over a }\n"
+      "pass q : raster { read a as sampled in fragment color s clear 0 } }";
+  const auto of = [&](int vectors, const std::string& promise) {
+    const std::string shader = "shared vec4 all[" + std::to_string(vectors) +
+                               "];\nvoid main() { all[gl_LocalInvocationIndex] = vec4(1.0); barrier(); imageStore(a, ivec2(0), all[gl_LocalInvocationIndex ^ 1u]); }";
+    return check({frame, promise, shader});
+  };
+  const std::string most = R"("maxComputeWorkGroupInvocations": 128, "maxComputeSharedMemorySize": 32768)";
+  EXPECT_TRUE(of(2048, profile("", most)).rows().empty());
+  EXPECT_TRUE(of(1024, profile("")).rows().empty());
+  EXPECT_TRUE(of(1024, kNoProfile).rows().empty());
+  const dsl::Diagnostics beyond = of(2049, profile("", most)), without = of(1025, kNoProfile);
+  ASSERT_EQ(kinds(beyond), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
+  EXPECT_EQ(beyond.rows()[0].message(),
+            "shader `p.comp` of pass `p` takes 32784 bytes of shared memory and profile `VP_TEST` promises 32768; take less, or target a profile that promises "
+            "more");
+  ASSERT_EQ(kinds(without), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
+  EXPECT_EQ(without.rows()[0].arguments[3], "vulkan 1.3");
 }
 
 TEST(Profiles, EveryProfileOfAFileCounts) {
