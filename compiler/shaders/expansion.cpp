@@ -49,7 +49,7 @@ Expansions::Measure Expansions::measure(const std::vector<GlslWord>& text) {
     const bool directive = begins_directive(text, i);
     const size_t end = directive ? end_of_directive(text, i) : i + 1;
     const bool condition = directive && i + 1 < end && (text[i + 1].text == "if" || text[i + 1].text == "elif");
-    for (size_t k = i; k < end; ++k)
+    for (size_t k = condition ? i + 2 : i; k < end; ++k)
       if (!directive || condition) words.push_back(text[k].text), places.push_back(&text[k]);
     i = end - 1;
   }

@@ -143,11 +143,11 @@ TEST(Profiles, EveryOptionalFeatureIsFound) {
   };
   const std::map<std::string, std::string> uses = {
       {"imageCubeArray", graph("image c : rgba8 64x64 cube layers 2 output pass p : transfer { clear c 0 }")},
-      {"samplerAnisotropy", graph("image a : rgba8 64x64 pass p : transfer { clear a 0 } pass q : compute { read a as sampled(fine) }",
+      {"samplerAnisotropy", graph("image a : rgba8 64x64 pass p : transfer { clear a 0 } pass q : compute { keep read a as sampled(fine) }",
                                   "sampler fine { filter linear anisotropy 8 }\n")},
-      {"independentBlend", graph("image a : rgba8 64x64 pass p : raster { color a clear 0 color s clear 0 blend add(one, one) }")},
-      {"fragmentStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { color s clear 0 atomic b as storage in fragment clear 0 }")},
-      {"vertexPipelineStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { color s clear 0 atomic b as storage in vertex clear 0 }")},
+      {"independentBlend", graph("image a : rgba8 64x64 pass p : raster { keep color a clear 0 color s clear 0 blend add(one, one) }")},
+      {"fragmentStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { keep color s clear 0 atomic b as storage in fragment clear 0 }")},
+      {"vertexPipelineStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { keep color s clear 0 atomic b as storage in vertex clear 0 }")},
       {"shaderStorageImageExtendedFormats", graph("image a : r8 64x64 output pass p : compute { write a as storage }")},
       {"shaderStorageImageMultisample", graph("image a : rgba8 64x64 samples 4 output pass p : compute { write a as storage }")},
   };
