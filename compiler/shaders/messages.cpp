@@ -137,6 +137,14 @@ bool report_local_size(const PassContext& context, const ShaderMessage& message,
   return true;
 }
 
+// What a name is in GLSL follows from its declaration, which glslang does not know of.
+void note_types(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostic& error) {
+  if (!contains(message.text, "no matching overloaded function") && !contains(message.text, "can't use with samplers")) return;
+  const dsl::Span line = places.line(message.file, message.line);
+  for (const dsl::Access& access : context.pass.accesses)
+    if (places.word_in_line(message.file, message.line, access.name) != line) error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
+}
+
 // A name the declaration chose and GLSL refuses, `input` for one.
 void report_in_prelude(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message,
                        dsl::Diagnostics& diagnostics) {
@@ -162,8 +170,10 @@ void report_message(const PassContext& context, const dsl::Shader& shader, const
     return;
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
-  diagnostics.report(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)})
-      .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+  dsl::Diagnostic error(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)});
+  if (!message.file.empty()) note_types(context, message, places, error);
+  error.note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+  diagnostics.report(std::move(error));
 }
 
 }  // namespace rg::compiler
