@@ -7,8 +7,8 @@ namespace {
 
 bool is_skipped(std::string_view gap) {
   while (!gap.empty()) {
-    const bool comment = gap.starts_with("//");
-    const size_t length = comment ? std::min(gap.find('\n'), gap.size()) : 1;
+    const bool foreign = gap.starts_with("/*"), comment = foreign || gap.starts_with("//");
+    const size_t length = foreign ? std::min(gap.find("*/", 2), gap.size() - 2) + 2 : comment ? std::min(gap.find('\n'), gap.size()) : 1;
     if (!comment && std::string_view(" \t\r\n").find(gap[0]) == std::string_view::npos) return false;
     gap.remove_prefix(length);
   }
