@@ -89,14 +89,14 @@ ShaderBundle build_all(Uber& uber, unsigned workers) {
   const dsl::GraphId graph{size_t{0}};
   const auto configurations = expand_configurations(uber.program, graph, {}, 64, diagnostics);
   const VariantSpace space = find_variant_space(uber.program, graph, configurations, diagnostics);
-  const ReadFile read = [](const std::string& path) { return read_text("bench/shaders/" + path); };
+  const ReadFile read = [](const std::string& path, std::string&) { return read_text("bench/shaders/" + path); };
   return compile_shaders(uber.program, graph, space, read, uber.files, {nullptr, workers, {}}, diagnostics);
 }
 
 Rows variant_rows() {
   auto uber = load_uber();
   if (!uber) return {};
-  ShaderSources sources([](const std::string&) { return std::nullopt; });
+  ShaderSources sources([](const std::string&, std::string&) { return std::nullopt; });
   uint64_t plain_instructions = 0, our_instructions = 0;
   plain_variant(*uber, 0, sources);  // glslang's tables are built once a process
   std::vector<Words> plain(kSampled);
@@ -129,7 +129,7 @@ struct Steps {
   double total() const { return parse + optimise + specialise + deduplicate + finish + validate; }
 };
 Steps time_steps(const Uber& uber) {
-  ShaderSources sources([](const std::string&) { return std::nullopt; });
+  ShaderSources sources([](const std::string&, std::string&) { return std::nullopt; });
   const std::string prelude = text(make_prelude(uber.program, uber.program.graphs.rows[0], shade_pass(uber), dsl::stage_compute));
   Steps steps;
   Words written, generic;

@@ -20,7 +20,7 @@ void check_first_queue(const dsl::Program& program, dsl::GraphId graph, const st
       const dsl::Pass& pass = frame.pass(i);
       constexpr const char* kPasses[] = {"raster", "compute", "transfer", "host"};
       const char* queue = options.queues.front() == dsl::QueueKind::compute ? "compute" : "transfer";
-      diagnostics.report(DiagnosticKind::QueueOfKind, pass.span, {kPasses[static_cast<size_t>(pass.kind)], queue});
+      diagnostics.report(DiagnosticKind::FirstQueueCannotRun, pass.span, {kPasses[static_cast<size_t>(pass.kind)], pass.name, queue});
       return;  // the others would say the same
     }
   }

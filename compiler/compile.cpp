@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "compiler/check_queues.h"
+#include "compiler/check_reach.h"
 #include "compiler/check_switches.h"
 #include "compiler/codegen/bind.h"
 #include "compiler/configurations.h"
@@ -24,10 +25,7 @@ std::string in_folder_of(const std::string& root_path, const std::string& path) 
 
 // Shader sources come through the same reader as .rg files, relative to the root file's folder.
 ReadFile shader_reader(const std::string& root_path, const dsl::ReadSource& read) {
-  return [=](const std::string& path) {
-    std::string why;
-    return read(in_folder_of(root_path, path), why);
-  };
+  return [=](const std::string& path, std::string& why) { return read(in_folder_of(root_path, path), why); };
 }
 
 void tell(const CompileOptions& options, const std::string& what) {
@@ -48,8 +46,7 @@ std::vector<std::string> paths_read(const std::string& root_path, const CompileR
 std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options,
                                            const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
   if (result.program.spectra.empty()) return {};
-  const ReadFile replaced = [&](const std::string& path) {
-    std::string why;
+  const ReadFile replaced = [&](const std::string& path, std::string& why) {
     return options.read_profile ? options.read_profile(path, why) : read(path, why);
   };
   Mask force = 0;
@@ -202,7 +199,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   for (const CompiledGraph& graph : result.graphs) result.program = resolve_stages(std::move(result.program), graph.graph, graph.shaders);
 
   // What the graphs ask of devices, beside what the target profiles promise.
-  for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, diagnostics);
+  for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, graph.shaders, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
   // What switches name, and queues that passes insist on.
@@ -216,7 +213,9 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // Program to plans, one a configuration.
   for (CompiledGraph& graph : result.graphs) graph.plans = plan_all(result, graph, options, diagnostics);
 
-  // What the program asserts about its plans.
+  // What no plan of any configuration runs, and what the program asserts about its plans.
+  for (const CompiledGraph& graph : result.graphs)
+    if (options.fixed_features.empty()) check_reach(result.program, graph.graph, graph.plans, diagnostics);
   for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::plans) return result;
 

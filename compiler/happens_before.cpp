@@ -144,11 +144,13 @@ void HappensBefore::start(const SyncSource& source) {
   start_frame(source.cell, source.after);
 }
 
-void HappensBefore::start_frame(uint32_t cell, uint32_t point) {
+std::span<const uint32_t> HappensBefore::on_cell_between(uint32_t cell, uint32_t first, uint32_t end) const {
   const std::vector<uint32_t>& all = on_cell_[cell];
-  const auto first = std::lower_bound(all.begin(), all.end(), point, [&](uint32_t scope, uint32_t at) { return scopes[scope].point < at; });
-  local_ = {first, all.end()};
+  const auto at = [&](uint32_t point) { return std::lower_bound(all.begin(), all.end(), point, [&](uint32_t s, uint32_t p) { return scopes[s].point < p; }); };
+  return first < end ? std::span<const uint32_t>(at(first), at(end)) : std::span<const uint32_t>();
 }
+
+void HappensBefore::start_frame(uint32_t cell, uint32_t point) { local_ = on_cell_between(cell, point, UINT32_MAX); }
 
 // Counted on through the frames.
 int64_t HappensBefore::number_waited_for(const SyncScope& wait) const {
@@ -266,11 +268,11 @@ bool HappensBefore::can_begin(const SyncFact& fact, const SyncSource& source) co
 // Nothing sees a write but barriers on its cell, waits, and its own transition.
 bool HappensBefore::can_sink(const SyncFact& fact, const SyncSource& source) const {
   if (!waits_on_[fact.queue].empty() || fact.before > end()) return true;
-  return std::any_of(local_.begin(), local_.end(),
+  const auto between = on_cell_between(source.cell, source.after, fact.before);
+  return std::any_of(between.begin(), between.end(),
                      [&](uint32_t s) {
                        const SyncScope& scope = scopes[s];
-                       return scope.point < fact.before && !scope.gone && !scope.transfers && (scope.dst & fact.stages) &&
-                              (scope.dst_accesses & fact.access);
+                       return !scope.gone && !scope.transfers && (scope.dst & fact.stages) && (scope.dst_accesses & fact.access);
                      }) ||
          source.kind == SyncSource::Kind::transition;
 }
@@ -301,9 +303,9 @@ bool HappensBefore::derive_directly(const SyncFact& fact, const SyncSource& sour
   };
   if (fact.kind == SyncFact::Kind::feeds) return leads(fact.scope) && found(fact.scope, 0);
   if (fact.queue != source.queue || fact.before > end()) return false;
-  for (const uint32_t s : on_cell_[source.cell]) {
+  for (const uint32_t s : on_cell_between(source.cell, source.after, fact.before)) {
     const SyncScope& scope = scopes[s];
-    if (scope.point >= fact.before || !leads(s)) continue;
+    if (!leads(s)) continue;
     if (fact.kind == SyncFact::Kind::sees && (scope.dst & fact.stages) && (scope.dst_accesses & fact.access)) {
       add_sink(s, fact, atoms);
       return found(s, 0);

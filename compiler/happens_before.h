@@ -126,6 +126,8 @@ class HappensBefore {
   void add_barriers(const Frame& frame, uint32_t slot, const std::vector<CellBarrier>& group);
   void note_cells(const Frame& frame, const CellBarrier& barrier, uint32_t scope);
 
+  // Of those on the cell, the ones at or after point `first` and before `end`. O(log barriers on the cell).
+  std::span<const uint32_t> on_cell_between(uint32_t cell, uint32_t first, uint32_t end) const;
   bool derive_directly(const SyncFact& fact, const SyncSource& source, std::vector<SyncAtom>& atoms);
   bool derive_alone(const SyncFact& fact, std::vector<SyncAtom>& atoms);
   void start(const SyncSource& source);

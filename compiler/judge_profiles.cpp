@@ -36,17 +36,21 @@ constexpr LimitRow kLimits[] = {{"maxImageDimension1D", 4096},
                                 {"maxColorAttachments", 4},
                                 {"maxFramebufferLayers", 256},
                                 {"maxComputeWorkGroupInvocations", 128},
+                                {"maxComputeSharedMemorySize", 16384},
                                 {"maxSamplerAnisotropy", 16},
                                 {"framebufferColorSampleCounts", 4},
                                 {"maxVertexInputBindings", 16},
                                 {"maxVertexInputAttributes", 16}};
 
+double least_of(std::string_view name) {
+  const auto* row = std::find_if(std::begin(kLimits), std::end(kLimits), [&](const LimitRow& each) { return each.name == name; });
+  return row == std::end(kLimits) ? 0 : row->least;
+}
+
 double limit_of(const dsl::Profile& profile, const char* name) {
   const auto at =
       std::lower_bound(profile.limits.begin(), profile.limits.end(), name, [](const auto& row, const char* wanted) { return row.name < wanted; });
-  if (at != profile.limits.end() && at->name == name) return at->value;
-  const auto* row = std::find_if(std::begin(kLimits), std::end(kLimits), [&](const LimitRow& each) { return std::string_view(each.name) == name; });
-  return row == std::end(kLimits) ? 0 : row->least;
+  return at != profile.limits.end() && at->name == name ? at->value : least_of(name);
 }
 
 struct Judge {
@@ -208,7 +212,7 @@ void judge_scalar(Judge& at, dsl::StructId id) {
 
 void judge_pass(Judge& at, const dsl::Pass& pass) {
   judge_scalar(at, pass.draw.per_draw);
-  for (const dsl::ParamsId params : pass.params) judge_scalar(at, at.graph.params[params].type);
+  for (const dsl::ParamsUse& use : pass.params) judge_scalar(at, at.graph.params[use.id].type);
   for (const dsl::Access& access : pass.accesses) {
     if (access.role == Role::storage) judge_storage(at, pass, access);
     if (access.role == Role::sampled) judge_sampler(at, access);
@@ -229,6 +233,29 @@ void judge_pass(Judge& at, const dsl::Pass& pass) {
               pass.span);
 }
 
+// Of all variants of the pass's shader.
+uint32_t shared_bytes(const ShaderBundle& bundle, const PassShaders& pass) {
+  uint32_t most = 0;
+  for (const auto& configuration : pass.variants)
+    for (const auto& row : configuration)
+      for (const size_t shader : row) most = std::max(most, bundle.shaders[shader].shared_bytes);
+  return most;
+}
+
+void judge_shared_memory(Judge& at, const dsl::Pass& pass, uint32_t bytes) {
+  constexpr const char* kLimit = "maxComputeSharedMemorySize";
+  const auto report = [&](const std::string& who, double most) -> dsl::Diagnostic& {
+    return at.diagnostics.report(DiagnosticKind::SharedMemory, pass.shaders.front().span,
+                                 {pass.shaders.front().path, pass.name, std::to_string(bytes), who, fmt::format("{:g}", most)});
+  };
+  if (at.program.profiles.empty() && bytes > least_of(kLimit)) report("vulkan 1.3", least_of(kLimit));
+  for (const dsl::Profile& profile : at.program.profiles) {
+    if (bytes <= limit_of(profile, kLimit)) continue;
+    report("profile `" + profile.name + "`", limit_of(profile, kLimit)).note(DiagnosticKind::ProfileIsHere, profile.span, {profile.name});
+    return;
+  }
+}
+
 void judge_version(Judge& at) {
   constexpr uint32_t kLeastMinor = 3;
   for (const dsl::Profile& profile : at.program.profiles)
@@ -239,9 +266,11 @@ void judge_version(Judge& at) {
 
 }  // namespace
 
-void judge_profiles(const dsl::Program& program, dsl::GraphId graph, dsl::Diagnostics& diagnostics) {
-  if (program.profiles.empty()) return;
+void judge_profiles(const dsl::Program& program, dsl::GraphId graph, const ShaderBundle& shaders, dsl::Diagnostics& diagnostics) {
   Judge at{program, program.graphs[graph], dsl::maximum_extents(program), diagnostics, {}};
+  for (size_t i = 0; i < shaders.passes.size(); ++i)
+    if (const uint32_t bytes = shared_bytes(shaders, shaders.passes[i]); bytes > 0) judge_shared_memory(at, at.graph.passes.rows[i], bytes);
+  if (program.profiles.empty()) return;
   if (graph.value == 0) judge_version(at);
   for (const dsl::Resource& resource : at.graph.resources)
     resource.kind == dsl::ResourceKind::image ? judge_image(at, resource) : judge_buffer(at, resource);

@@ -13,6 +13,7 @@ namespace rg::compiler {
 dsl::Program read_profiles(dsl::Program program, const ReadFile& read, dsl::Diagnostics& diagnostics);
 
 // Reports, once at its use, every feature a graph needs that some profile does not promise, and every limit it goes over at the maximal extents.
-void judge_profiles(const dsl::Program& program, dsl::GraphId graph, dsl::Diagnostics& diagnostics);
+// Without profiles only the shared memory of shaders is judged, by Vulkan's minimum: other limits show in the text, this one in no declaration.
+void judge_profiles(const dsl::Program& program, dsl::GraphId graph, const ShaderBundle& shaders, dsl::Diagnostics& diagnostics);
 
 }  // namespace rg::compiler

@@ -145,9 +145,10 @@ std::string read_file(const std::string& text, dsl::Span span, std::vector<dsl::
 dsl::Program read_profiles(dsl::Program program, const ReadFile& read, dsl::Diagnostics& diagnostics) {
   std::vector<dsl::Profile> rows;
   for (const dsl::Profile& named : program.profiles) {
-    const auto text = read(named.name);
+    std::string why;
+    const auto text = read(named.name, why);
     std::vector<dsl::Profile> found;
-    const std::string fault = text ? read_file(*text, named.span, found) : std::string("it cannot be read");
+    const std::string fault = text ? read_file(*text, named.span, found) : why;
     if (!fault.empty()) diagnostics.report(DiagnosticKind::ProfileNotReadable, named.span, {named.name, fault});
     rows.insert(rows.end(), found.begin(), found.end());
   }

@@ -279,6 +279,8 @@ SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Pref
   search.result.method = "list scheduling";
   search.consider(earliest);
   const std::vector<uint32_t> counts = counts_to_try(least, problem.nodes, prefer);
+  // A chain has one order, and moves would only find that out again and again.
+  if (counts.back() == least && latest_segments(problem, least) == earliest) return std::move(search).choose(packing_effort(problem, effort));
   for (const uint32_t count : counts) {
     if (effort == Effort::fast && count != counts.front() && count != counts.back()) continue;
     search.consider(latest_segments(problem, count));

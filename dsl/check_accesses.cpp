@@ -116,7 +116,8 @@ void read_role(Builder& at) {
     at.access.role = default_role(at);
     if (host_pass) at.access.role = at.node.verb == Verb::read ? Role::host_read : Role::host_write;
     const bool needs_role = !is_attachment(at.node.verb) && at.node.verb != Verb::atomic && !host_pass;
-    if (needs_role) fail(at, DiagnosticKind::RoleMissing, at.node.span, {word_of(at.node.verb), spelled(at.node.target)});
+    const char* roles = at.node.verb == Verb::read ? "`as sampled` or `as storage`" : "`as storage`";
+    if (needs_role) fail(at, DiagnosticKind::RoleMissing, at.node.span, {word_of(at.node.verb), spelled(at.node.target), roles});
     return;
   }
   const ast::Name& word = at.node.usage->role;

@@ -256,6 +256,7 @@ void visit(Walker at, const ast::Use& node) {
   if (!instance) return void(at.scope.incomplete = true);
   if (!claim_instance(at, node, *instance)) return;
   if (!node.index.empty()) at.scope.instances[at.scope.prefix + std::string(node.instance.text)] = true;
+  if (at.phase == Phase::passes) at.scope.graph.instances.push_back({*instance, std::string(symbol.name.text), node.span, technique.name.span});
   const size_t told = at.checker.diagnostics.rows().size();
   walk_instance(at, symbol, technique, std::move(*bindings), *instance);
   // What is wrong inside a technique may be so only for what this `use` gives it.

@@ -170,7 +170,7 @@ void check_slices(const Rules& rules, const Access& access) {
   const Resource& image = rules.resource(access);
   if (is_slice(access) && !is_attachment(access.role))
     return void(rules.checker.report(DiagnosticKind::OptionDoesNotFit, access.span, {"slice", word_of(access.role)}));
-  const uint32_t depth = is_slice(access) ? least_depth(rules.checker.program, image, access.range.mip) : kAll;
+  const uint32_t depth = is_slice(access) ? least_depth(rules.checker, image, access.range.mip) : kAll;
   if (is_slice(access) && access.range.slice + access.range.slices > depth)  // `.slice(3).mip(1)`
     rules.checker.report(DiagnosticKind::NoSuchSubresource, access.span,
                          {image.name, std::to_string(depth), "slices", std::to_string(access.range.slice + access.range.slices - 1)});
@@ -268,18 +268,19 @@ int64_t greatest(const Rules& rules, ExprId expr) {
 void check_amount(const Rules& rules) {
   constexpr int64_t kMostGroups = 65535, kMostVertices = UINT32_MAX;  // maxComputeWorkGroupCount; what a draw command holds
   const auto report = [&](std::string what, int64_t most) {
-    rules.checker.report(DiagnosticKind::OutOfRange, rules.pass.span, {std::move(what), "1", std::to_string(most)});
+    rules.checker.report(DiagnosticKind::WorkTooLarge, rules.pass.span, {rules.pass.name, std::move(what), std::to_string(most)});
   };
   const Dispatch& dispatch = rules.pass.dispatch;
   const bool sized = !rules.pass.block && (dispatch.kind == DispatchKind::over || dispatch.kind == DispatchKind::groups);  // of blocks later
   for (size_t axis = 0; sized && axis < 3; ++axis) {
     const int64_t size = greatest(rules, dispatch.size[axis]), group = dispatch.kind == DispatchKind::over ? dispatch.group[axis] : 1;
     const int64_t groups = size / group + (size % group != 0);
-    if (groups > kMostGroups) return report("a dispatch of " + std::to_string(groups) + " groups along an axis", kMostGroups);
+    if (groups > kMostGroups) return report("dispatches " + std::to_string(groups) + " groups along an axis", kMostGroups);
   }
   const Draw& draw = rules.pass.draw;
-  for (const ExprId count : {draw.vertices, draw.instances, draw.first, draw.offset})
-    if (greatest(rules, count) > kMostVertices) return report("a draw of " + std::to_string(greatest(rules, count)), kMostVertices);
+  const char* vertices = draw.indexed ? " indices" : " vertices";
+  for (const auto& [count, what] : {std::pair(draw.vertices, vertices), {draw.instances, " instances"}, {draw.first, vertices}, {draw.offset, vertices}})
+    if (greatest(rules, count) > kMostVertices) return report("draws " + std::to_string(greatest(rules, count)) + what, kMostVertices);
 }
 
 void check_state(const Rules& rules) {
@@ -332,9 +333,11 @@ bool may_stand_together(const Access& a, const Access& b) {
 
 bool conflict(const Rules& rules, const Access& a, const Access& b) { return overlap(rules, a, b) && !may_stand_together(a, b); }
 
-void check_conflicts(const Rules& rules) {
+// What is wrong by itself contradicts nothing.
+void check_conflicts(const Rules& rules, const std::vector<bool>& wrong) {
   std::unordered_map<uint32_t, std::vector<const Access*>> seen;  // by resource
   for (const Access& access : rules.pass.accesses) {
+    if (wrong[static_cast<size_t>(&access - rules.pass.accesses.data())]) continue;
     auto& others = seen[access.resource.value];
     for (const Access* other : others) {
       if (!conflict(rules, *other, access)) continue;
@@ -364,7 +367,7 @@ void check_names(const Rules& rules) {
   };
   for (const Access& access : rules.pass.accesses)
     if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, {access.span, &access});
-  for (const ParamsId params : rules.pass.params) claim(rules.graph.params[params].name, {rules.graph.params[params].span});
+  for (const ParamsUse& use : rules.pass.params) claim(rules.graph.params[use.id].name, {use.span});
 }
 
 }  // namespace
@@ -372,7 +375,9 @@ void check_names(const Rules& rules) {
 void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
   const Rules rules{checker, graph, pass};
   bool roles_fit = true;
+  std::vector<bool> wrong;  // by access
   for (const Access& access : pass.accesses) {
+    const size_t told = checker.diagnostics.rows().size();
     check_stages(rules, access);
     const bool fits = check_role(rules, access);
     roles_fit = roles_fit && fits;
@@ -384,13 +389,14 @@ void check_pass_rules(Checker& checker, const Graph& graph, const Pass& pass) {
     if (sampled_texels) checker.report(DiagnosticKind::SamplerOfRole, access.span, {word_of(access.role)});
     if (fits && access.role == Role::storage && rules.resource(access).format != Format::none && rules.resource(access).kind == ResourceKind::buffer)
       check_storage_format(rules, access, info(rules.resource(access).format));
+    wrong.push_back(checker.diagnostics.rows().size() > told);
   }
   if (!roles_fit) return;
   check_attachments(rules);
   check_state(rules);
   check_amount(rules);
   check_multiview(rules);
-  check_conflicts(rules);
+  check_conflicts(rules, wrong);
   check_names(rules);
 }
 

@@ -78,7 +78,7 @@ void visit(Builder& at, const ast::ShaderStatement& node) {
   for (const auto& path : node.paths) add_shader(at, path);
   read_group(at, node);
   const bool unsized = !at.out.dropped && at.out.pass.kind == PassKind::compute && node.group.empty() && !node.paths.empty();
-  if (unsized) fail(at, DiagnosticKind::ExpectedAfter, node.paths.back().span, {"`group X Y Z`", std::string(node.paths.back().text)});
+  if (unsized) fail(at, DiagnosticKind::GroupMissing, node.paths.back().span, {std::string(node.paths.back().text)});
   if (!node.fullscreen) return;
   at.fullscreen = at.has_draw = true;
   at.draw_span = node.span;
@@ -205,14 +205,15 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
   if (node.type) {
     const StructId type = find_struct(at.checker, at.scope.module, *node.type);
     if (!type.valid() || !check_not_packed(at.checker, type, node.type->span)) return void(at.out.dropped = true);
-    at.out.pass.params.push_back(at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span}));
+    const ParamsId own = at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span});
+    at.out.pass.params.push_back({own, node.span});
     return;
   }
   const auto bound =
       std::find_if(at.scope.bindings.rbegin(), at.scope.bindings.rend(), [&](const Binding& binding) { return binding.name == node.name.text; });
-  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back(bound->params);
+  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back({bound->params, node.span});
   const auto found = at.scope.params.find(name);
-  if (found != at.scope.params.end()) return at.out.pass.params.push_back(found->second);
+  if (found != at.scope.params.end()) return at.out.pass.params.push_back({found->second, node.span});
   if (at.scope.failed.count(name) || at.checker.lost_names) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
   for (const Params& params : at.scope.graph.params)
@@ -234,7 +235,7 @@ void read_after(Builder& at, const ast::Expr& value) {
   std::vector<std::string_view> candidates;
   for (const Pass& pass : at.scope.graph.passes)
     if (pass.name.starts_with(at.scope.prefix)) candidates.push_back(std::string_view(pass.name).substr(at.scope.prefix.size()));  // as called here
-  Diagnostic diagnostic(DiagnosticKind::UnknownEarlierPass, value.span, {name});
+  Diagnostic diagnostic(DiagnosticKind::UnknownEarlierPass, value.span, {name, at.out.pass.name});
   Guess guess = closest(*evaluated, candidates);
   guess.certain = guess.certain && spelled(value) == *evaluated && guess.words[0].find('[') == std::string::npos;  // an index may be a variable
   suggest(diagnostic, value.span, guess);
@@ -321,7 +322,7 @@ void read_heading(Builder& at) {
   pass.queue_may = at.node.queue_may;
   const bool fits = pass.queue == QueueKind::graphics || (pass.queue == QueueKind::compute && pass.kind != PassKind::raster) ||
                     (pass.queue == QueueKind::transfer && pass.kind == PassKind::transfer);
-  if (!fits) fail(at, DiagnosticKind::QueueOfKind, at.node.queue.span, {std::string(kind), std::string(queue)});
+  if (!fits) fail(at, DiagnosticKind::QueueOfKind, at.node.queue.span, {std::string(kind), std::string(queue), pass.name});
   pass.module = at.checker.modules[at.scope.module].name;
   pass.span = at.node.span;
   pass.guard = at.scope.guard;
@@ -430,8 +431,8 @@ PassId add_pass(Builder& at, Pass pass) {
 }
 
 void own_params(Graph& graph, const Pass& pass, PassId id) {
-  for (const ParamsId params : pass.params)
-    if (graph.params[params].pass.valid()) graph.params[params].pass = id;
+  for (const ParamsUse& use : pass.params)
+    if (graph.params[use.id].pass.valid()) graph.params[use.id].pass = id;
 }
 
 void add_passes(Builder& at) {

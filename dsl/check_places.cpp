@@ -222,11 +222,10 @@ Place take_slices(Walk walk, const Expr& call, Place place, bool many) {
   const Resource& image = walk.scope.graph.resources[place.resource];
   if (image.dimension != Dimension::d3)
     return fail(walk, DiagnosticKind::PartOfOtherKind, call.span, {image.name, "no 3D image", many ? "slices" : "slice"});
-  const Program& program = walk.checker.program;
-  const uint32_t depth = least_depth(program, image, place.range.mip);
+  const uint32_t depth = least_depth(walk.checker, image, place.range.mip);
   uint32_t first = 0, count = 0;
   if (!narrow(walk, call, depth, "slices", many, first, count)) return {};
-  const bool whole = count == depth && program.exprs[image.depth].op == ExprOp::constant;
+  const bool whole = count == depth && walk.checker.program.exprs[image.depth].op == ExprOp::constant;
   if (!whole) place.range.slice = first, place.range.slices = count;
   return place;
 }
@@ -363,11 +362,16 @@ std::optional<std::string> evaluated_name(Checker& checker, GraphScope& scope, c
   return indices ? std::optional(spelled(family_of(expr)) + *indices) : std::nullopt;
 }
 
-uint32_t least_depth(const Program& program, const Resource& image, uint32_t mip) {
-  int64_t depth = INT64_MAX;
+uint32_t least_depth(Checker& checker, const Resource& image, uint32_t mip) {
+  const Program& program = checker.program;
+  int64_t most = UINT32_MAX, least = 1;
   for (const auto& extents : {minimum_extents(program), initial_extents(program), maximum_extents(program)})
-    depth = std::min(depth, std::max<int64_t>(evaluate(program, image.depth, extents) >> mip, 1));
-  return static_cast<uint32_t>(depth);
+    most = std::min(most, std::max<int64_t>(evaluate(program, image.depth, extents) >> mip, 1));
+  const Polynomial depth = checker.formulas.of(image.depth);
+  const auto has = [&](int64_t slices) { return slices == 1 || checker.formulas.never_negative(depth - Polynomial(slices << mip)); };
+  if (has(most)) return static_cast<uint32_t>(most);
+  while (most - least > 1) (has((least + most) / 2) ? least : most) = (least + most) / 2;
+  return static_cast<uint32_t>(least);
 }
 
 uint32_t mip_count(const Resource& resource, const Range& range) { return range.mips == kAll ? resource.mips - range.mip : range.mips; }

@@ -11,6 +11,7 @@
 #include "dsl/check.h"
 #include "dsl/closest.h"
 #include "dsl/format_table.h"
+#include "dsl/symbolic.h"
 
 namespace rg::dsl {
 
@@ -88,6 +89,7 @@ struct Checker {
   bool lost_names = false;                                                   // a name that is not found may be in what did not parse
   uint32_t depth = 0;                                                        // of evaluations inside one another: bounds the stack
   std::vector<uint32_t> struct_depths;                                       // by struct: itself and the longest chain of structs inside it
+  Formulas formulas{program};                                                // of what has been declared so far
 
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {}) {
     return diagnostics.report(kind, span, std::move(arguments));
@@ -225,8 +227,8 @@ bool check_writable(Checker& checker, GraphScope& scope, const Place& place, con
 // Silent probe: whether `expr` begins with the name of a resource.
 bool names_resource(const GraphScope& scope, const ast::Expr& expr);
 Value size_of(Checker& checker, GraphScope& scope, const Place& place);
-// Of a 3D image at every extent.
-uint32_t least_depth(const Program& program, const Resource& image, uint32_t mip);
+// Of a mip of a 3D image: as many slices as it is proved to have at every choice of extents.
+uint32_t least_depth(Checker& checker, const Resource& image, uint32_t mip);
 uint32_t mip_count(const Resource& resource, const Range& range);
 uint32_t layer_count(const Resource& resource, const Range& range);
 

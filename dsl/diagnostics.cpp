@@ -69,6 +69,20 @@ bool Diagnostics::has_errors() const {
   return std::any_of(rows_.begin(), rows_.end(), [](const Diagnostic& d) { return row(d.kind).severity == Severity::error; });
 }
 
+std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most) {
+  std::vector<Diagnostic> first;
+  size_t errors = 0, others = 0;
+  for (const Diagnostic& diagnostic : diagnostics.rows())
+    if ((row(diagnostic.kind).severity == Severity::error ? errors : others)++ < most) first.push_back(diagnostic);
+  const auto missing = [&](size_t count, const std::string& what) {
+    return count <= most ? "" : std::to_string(count - most) + " more " + what + (count - most == 1 ? "" : "s");
+  };
+  const std::string a = missing(errors, "error"), b = missing(others, "warning");
+  const bool one = std::max(errors, most) + std::max(others, most) == 2 * most + 1;
+  if (!a.empty() || !b.empty()) first.emplace_back(DiagnosticKind::NotShown, Span{}, std::vector{a + (!a.empty() && !b.empty() ? " and " : "") + b + (one ? " is" : " are")});
+  return first;
+}
+
 void Diagnostics::sort() {
   std::stable_sort(rows_.begin(), rows_.end(), [](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
   const auto same = [](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); };

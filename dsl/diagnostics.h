@@ -55,11 +55,15 @@ class Diagnostics {
   std::vector<Diagnostic> rows_;
 };
 
-// Text with snippet, caret and notes; colour by ANSI codes where wanted.
+// At most `most` errors and as many others, in their order; behind them, where some are missing, a note that says how many.
+std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most);
+constexpr size_t kMostForPeople = 100, kMostForPrograms = 1000;
+
+// Text with snippet, caret and notes; colour by ANSI codes where wanted. At most kMostForPeople errors.
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour);
-// The documented JSON form: an array of {code, name, severity, message, file, line, column, end_line, end_column, notes, fixes}.
+// The documented JSON form, first_of(diagnostics, kMostForPrograms): an array of {code, name, severity, message, file, line, column, end_line, end_column, notes, fixes}.
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files);
-// SARIF 2.1.0 (OASIS), one run: rules are the codes that occur, notes with a place are related locations. Columns count bytes from 1.
+// SARIF 2.1.0 (OASIS) of as many, one run: rules are the codes that occur, notes with a place are related locations. Columns count bytes from 1.
 std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files);
 
 }  // namespace rg::dsl

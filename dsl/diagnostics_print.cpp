@@ -98,20 +98,13 @@ nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagn
 
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour) {
   Printer printer{files, colour, {}};
-  constexpr size_t kMostErrors = 100;  // of a text for people; the forms for programs have all
-  size_t errors = 0;
-  for (const Diagnostic& diagnostic : diagnostics.rows()) {
-    const bool is_error = row(diagnostic.kind).severity == Severity::error;
-    if (is_error && errors++ >= kMostErrors) continue;
-    print_one(printer, diagnostic);
-  }
-  if (errors > kMostErrors) printer.out += fmt::format("... and {} more errors\n", errors - kMostErrors);
+  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPeople)) print_one(printer, diagnostic);
   return printer.out;
 }
 
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Diagnostic& diagnostic : diagnostics.rows()) json.push_back(to_json(files, diagnostic));
+  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPrograms)) json.push_back(to_json(files, diagnostic));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

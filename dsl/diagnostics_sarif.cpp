@@ -101,7 +101,7 @@ Json result(Writer& writer, const Diagnostic& diagnostic) {
 std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files) {
   Writer writer{files, Json::array(), {}};
   Json results = Json::array();
-  for (const Diagnostic& diagnostic : diagnostics.rows()) results.push_back(result(writer, diagnostic));
+  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPrograms)) results.push_back(result(writer, diagnostic));
   const Json driver = {{"name", "rgc"}, {"rules", writer.rules}};
   const Json run = {{"tool", {{"driver", driver}}}, {"columnKind", "unicodeCodePoints"}, {"results", std::move(results)}};
   const Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({run})}};

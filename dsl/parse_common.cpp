@@ -173,9 +173,24 @@ bool skip_to_block(Parser& parser) {
   return true;
 }
 
+// A line that can only stand inside the block: its `{` was forgotten.
+bool block_follows(const Parser& parser) {
+  if (!parser.peek().starts_line || !parser.is(TokenKind::identifier)) return false;
+  return begins_statement(parser.word()) || begins_item(parser.word()) || parser.is(TokenKind::colon, 1);
+}
+
+void forgot_brace(Parser& parser) {
+  const Token& last = parser.tokens[parser.at - 1];
+  Diagnostic diagnostic(DiagnosticKind::ExpectedAfter, parser.span(last), {"`{`", std::string(text_of(last, parser.text).substr(0, 40))});
+  diagnostic.fix({parser.file, last.end, last.end}, " {");
+  parser.complain(std::move(diagnostic));
+  parser.silent = false;
+}
+
 // After a wrong heading the block, if it follows, is still worth reading.
 bool open_block(Parser& parser) {
   if (parser.silent && !skip_to_block(parser)) return false;
+  if (!parser.silent && parser.at > 0 && block_follows(parser)) return forgot_brace(parser), true;
   const bool opened = parser.expect(TokenKind::left_brace) || (skip_to_block(parser) && parser.accept(TokenKind::left_brace));
   const bool follows = opened || (parser.is(TokenKind::identifier) && (begins_statement(parser.word()) || begins_item(parser.word())));
   if (follows) parser.silent = false;

@@ -290,6 +290,12 @@ struct Block {
   friend bool operator==(const Block&, const Block&) = default;
 };
 
+struct ParamsUse {
+  ParamsId id;
+  Span span;  // of the pass's own line
+  friend bool operator==(const ParamsUse&, const ParamsUse&) = default;
+};
+
 struct Pass {
   std::string name;        // unique in the graph; loop instances are `bloom_down[3]`
   std::string module;
@@ -298,7 +304,7 @@ struct Pass {
   bool queue_may = false;  // `may`: permission to move, not an order
   std::vector<Shader> shaders;
   std::vector<Access> accesses;
-  std::vector<ParamsId> params;
+  std::vector<ParamsUse> params;
   StateId state;           // raster; invalid: defaults
   Draw draw;
   Dispatch dispatch;
@@ -352,6 +358,13 @@ struct EngineSet {  // `set materials 2 { texture2D[16] albedo  sampler smooth }
   friend bool operator==(const EngineSet&, const EngineSet&) = default;
 };
 
+// `use wide = blur(hdr, inout bloom)`: what the technique declares is called `wide.NAME`.
+struct Instance {
+  std::string name, technique;
+  Span span, declared;  // of the `use`; of the technique's name
+  friend bool operator==(const Instance&, const Instance&) = default;
+};
+
 struct Graph {
   std::string name;
   Table<ResourceId, Resource> resources;
@@ -359,6 +372,7 @@ struct Graph {
   Table<ParamsId, Params> params;
   std::vector<Assertion> assertions;
   Table<FusionId, Fusion> fusions;
+  std::vector<Instance> instances;
   Span span;
   // Not inline: in each file that includes this, copying so many tables would take long to compile.
   Graph();

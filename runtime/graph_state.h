@@ -165,6 +165,11 @@ struct RenderingTable {
   std::vector<ViewRef> framebuffer_views;
   std::vector<VkImageView> framebuffer_handles;
   std::vector<VkClearValue> clears;
+  // The aspect of the depth and stencil attachment that the plan has left without a layout, and the one it gets before the render pass begins.
+  VkImageAspectFlags loose_aspect = 0;
+  VkImageLayout loose_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  Ref loose_image;
+  Range loose_range;
 };
 
 struct ImportedBinding {

@@ -77,12 +77,22 @@ AspectState named_aspect(const Context& context, const Attachment& attachment, L
 }
 
 // Dynamic rendering leaves an aspect alone that it does not name; a classic render pass has to say so: contents are loaded and not stored, in the
-// layout that the frame's barriers left. Without contents any layout will do.
-AspectState unnamed_aspect(const Context& context, Index pass, const Attachment& other, uint32_t aspect) {
+// layout that the frame's barriers left, or that it gets right before, see give_layout.
+struct UnnamedLayout {
+  Layout layout = Layout::undefined;
+  bool given = false;  // the frame's barriers left none
+};
+UnnamedLayout unnamed_layout(const Context& context, Index pass, const Attachment& other, uint32_t aspect) {
   const Layout found = layout_at(context.plan, pass, other.ref, aspect, other.range.mip, other.range.layer);
-  const Layout layout = aspect == aspect_depth ? depth_part(found) : stencil_part(found);
-  if (layout != Layout::undefined) return {VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_STORE_OP_NONE, to_vk(layout), to_vk(layout)};
-  return {.during = to_vk(aspect == aspect_depth ? Layout::depth_attachment : Layout::stencil_attachment)};
+  if (found == Layout::undefined) return {aspect == aspect_depth ? Layout::depth_attachment : Layout::stencil_attachment, true};
+  return {aspect == aspect_depth ? depth_part(found) : stencil_part(found), false};
+}
+
+AspectState unnamed_aspect(const Context& context, Index pass, const Attachment& other, uint32_t aspect) {
+  const UnnamedLayout found = unnamed_layout(context, pass, other, aspect);
+  const VkImageLayout layout = to_vk(found.layout);
+  if (found.given && context.plan.resources[other.ref.resource].import_slot != kNone) return {.during = layout};  // whose state the engine knows
+  return {load_op(context.device, LoadOp::none), VK_ATTACHMENT_STORE_OP_NONE, layout, layout};
 }
 
 struct DepthStencil {
@@ -327,6 +337,16 @@ void fill_info(const Sized& sized, RenderingTable& table) {
   cover(table, table.area.extent);
 }
 
+void find_loose_aspect(const Context& context, Index pass, const Rendering& rendering, RenderingTable& table) {
+  if (depth_or_stencil(rendering) == kNone || (rendering.depth != kNone && rendering.stencil != kNone)) return;
+  const Attachment& named = context.plan.attachments[depth_or_stencil(rendering)];
+  if (context.plan.resources[named.ref.resource].aspects != (aspect_depth | aspect_stencil)) return;
+  const uint32_t aspect = rendering.depth != kNone ? aspect_stencil : aspect_depth;
+  const UnnamedLayout found = unnamed_layout(context, pass, named, aspect);
+  if (!found.given || context.plan.resources[named.ref.resource].import_slot != kNone) return;
+  table.loose_aspect = aspect, table.loose_layout = to_vk(found.layout), table.loose_image = named.ref, table.loose_range = named.range;
+}
+
 Status fill_table(const Context& context, Sized& sized, const TableTarget& target) {
   const Rendering& rendering = target.rendering;
   RenderingTable& table = target.table;
@@ -351,8 +371,10 @@ Status create_rendering(const Context& context, const Objects& objects, Sized& s
   const RenderingPart part = objects.passes[index].part;
   pass.rendering.render_pass = objects.passes[index].render_pass.get();
   RG_TRY(fill_table(context, sized, {rendering, part, pass, pass.rendering}));
+  if (pass.rendering.render_pass != VK_NULL_HANDLE) find_loose_aspect(context, index, rendering, pass.rendering);
   if (!part.first || part.last) return Done{};
   pass.whole_rendering.render_pass = objects.passes[index].whole_render_pass.get();
+  if (pass.whole_rendering.render_pass != VK_NULL_HANDLE) find_loose_aspect(context, index, rendering, pass.whole_rendering);
   return fill_table(context, sized, {rendering, {}, pass, pass.whole_rendering});
 }
 
@@ -408,7 +430,29 @@ Status update_framebuffer(const Context& context, const Sized& sized, RenderingT
   return Done{};
 }
 
-void begin_classic(const Context& context, const RenderingTable& table, VkCommandBuffer commands) {
+// A render pass that made the transition itself would race with the one before, which no barrier of the frame follows: for dynamic rendering there is
+// nothing to wait for.
+void give_layout(const Context& context, const Sized& sized, const RenderingTable& table, VkCommandBuffer commands, uint64_t frame) {
+  constexpr VkPipelineStageFlags2 kTests = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
+  VkImageMemoryBarrier2 barrier{};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.srcStageMask = barrier.dstStageMask = kTests;
+  barrier.srcAccessMask = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  barrier.newLayout = table.loose_layout;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image_at(sized, {}, context.plan, table.loose_image, frame);
+  barrier.subresourceRange = image_range(context, sized, table.loose_image.resource, table.loose_range);
+  barrier.subresourceRange.aspectMask = table.loose_aspect, barrier.subresourceRange.levelCount = 1;
+  VkDependencyInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  info.imageMemoryBarrierCount = 1;
+  info.pImageMemoryBarriers = &barrier;
+  context.vk().CmdPipelineBarrier2(commands, &info);
+}
+
+void begin_classic(const Context& context, const Sized& sized, const RenderingTable& table, VkCommandBuffer commands, uint64_t frame) {
+  if (table.loose_aspect != 0) give_layout(context, sized, table, commands, frame);
   VkRenderPassBeginInfo info{};
   info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
   info.renderPass = table.render_pass;
@@ -435,7 +479,7 @@ Status update_framebuffers(const Context& context, Sized& sized, uint64_t frame)
 
 void begin_rendering(const Context& context, const Sized& sized, RenderingTable& table, VkCommandBuffer commands, uint64_t frame) {
   if (table.render_pass != VK_NULL_HANDLE)
-    begin_classic(context, table, commands);
+    begin_classic(context, sized, table, commands, frame);
   else
     begin_dynamic(context, sized, table, commands, frame);
 }

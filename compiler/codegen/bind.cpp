@@ -218,7 +218,7 @@ void add_bindings(Binder& b, Pass& pass, const dsl::Pass& source, const PassShad
     binding.type = descriptor_type(interface.kind);
     if (interface.kind == BindingKind::params) {
       binding.stages = shaders.params_stages[interface.params];
-      binding.params = source.params[interface.params].value;
+      binding.params = source.params[interface.params].id.value;
       b.plan.pass_params.push_back(binding.params);
     } else {
       binding.stages = shaders.access_stages[interface.access];

@@ -64,17 +64,42 @@ std::string facts_text(const Facts& facts) {
       facts.waits, facts.queues, facts.overlap.end / 1000);
 }
 
-std::string text_of(const compiler::CompileResult& result) {
-  std::string text;
+// The plan of one graph with one choice of features.
+struct Block {
+  std::string title, text;
+};
+
+std::vector<Block> blocks_of(const compiler::CompileResult& result) {
+  std::vector<Block> blocks;
   for (const compiler::CompiledGraph& graph : result.graphs) {
     for (const compiler::FramePlan& plan : graph.plans) {
       const Facts facts = find_facts(result.program, graph, plan);
-      text += fmt::format("graph {} {}\n", facts.graph, facts.variant) + facts_text(facts);
+      std::string text = facts_text(facts);
       for (const Pass& pass : plan.plan.passes)
         text += fmt::format("pass {}{}\n", pass.name, pass.queue ? fmt::format("  on queue {}", pass.queue) : "");
-      text += barriers_text(plan.plan);
+      blocks.push_back({facts.variant.empty() ? fmt::format("graph {}", facts.graph) : fmt::format("graph {} with {}", facts.graph, facts.variant),
+                        text + barriers_text(plan.plan)});
     }
   }
+  return blocks;
+}
+
+const Block* find_block(const std::vector<Block>& blocks, const std::string& title) {
+  const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const Block& block) { return block.title == title; });
+  return found == blocks.end() ? nullptr : &*found;
+}
+
+// A block of changes for each plan that differs, under its title.
+std::string changes_between(const std::vector<Block>& before, const std::vector<Block>& after) {
+  std::string text;
+  for (const Block& old : before) {
+    const Block* now = find_block(after, old.title);
+    const std::string changes = now == nullptr ? "" : text_diff(old.text, now->text);
+    if (now == nullptr) text += old.title + ": there is no such plan any more\n";
+    if (!changes.empty()) text += old.title + "\n" + changes;
+  }
+  for (const Block& now : after)
+    if (find_block(before, now.title) == nullptr) text += now.title + ": a new plan\n" + text_diff("", now.text);
   return text;
 }
 
@@ -86,7 +111,7 @@ int diff(const DiffOptions& options) {
   const auto before = compile_or_report(options.before, compile);
   const auto after = compile_or_report(options.after, compile);
   if (!before || !after) return exit_input_wrong;
-  const std::string changes = text_diff(text_of(*before), text_of(*after));
+  const std::string changes = changes_between(blocks_of(*before), blocks_of(*after));
   print(changes.empty() ? "the plans are equal\n" : changes);
   return exit_done;
 }

@@ -22,8 +22,22 @@ bool names(const std::string& name, std::string_view subject) {
   return subject.size() == name.size() || subject[name.size()] == '[' || subject[name.size()] == '.';
 }
 
-std::string declared(const compiler::CompileResult& result, const dsl::Graph& graph, const std::string& name) {
+std::string text_at(const dsl::SourceFiles& sources, dsl::Span span) {
+  return sources[span.file].text.substr(span.begin, span.end - span.begin);
+}
+
+// Uses of techniques, by the name of the instance or of the technique.
+std::string used_techniques(const compiler::CompileResult& result, const dsl::Graph& graph, const std::string& name) {
   std::string text;
+  for (const dsl::Instance& instance : graph.instances)
+    if (instance.name == name || instance.technique == name || (instance.name.starts_with(name) && instance.name[name.size()] == '['))
+      text += fmt::format("instance {}  {}\n  {}\n  technique {}  {}\n", instance.name, place_text(result.sources, instance.span),
+                          text_at(result.sources, instance.span), instance.technique, place_text(result.sources, instance.declared));
+  return text;
+}
+
+std::string declared(const compiler::CompileResult& result, const dsl::Graph& graph, const std::string& name) {
+  std::string text = used_techniques(result, graph, name);
   for (const dsl::Pass& pass : graph.passes)
     if (names(name, pass.name)) text += fmt::format("pass {}  {}\n", pass.name, place_text(result.sources, pass.span));
   for (const dsl::Resource& resource : graph.resources)
@@ -70,6 +84,7 @@ std::vector<std::string> all_names(const dsl::Program& program) {
   for (const dsl::Graph& graph : program.graphs) {
     for (const dsl::Pass& pass : graph.passes) all.push_back(pass.name);
     for (const dsl::Resource& resource : graph.resources) all.push_back(resource.name);
+    for (const dsl::Instance& instance : graph.instances) all.insert(all.end(), {instance.name, instance.technique});
   }
   return all;
 }

@@ -38,7 +38,7 @@ std::string params_text(const dsl::Program& program, const dsl::SourceFiles& sou
   const dsl::Params& params = graph.params[id];
   std::string text = fmt::format("params {}: {}  {}\n", params.name, program.structs[params.type].name, place_text(sources, params.span));
   for (const Pass& pass : graph.passes)
-    if (std::find(pass.params.begin(), pass.params.end(), id) != pass.params.end()) text += fmt::format("  pass {} reads it\n", pass.name);
+    if (std::any_of(pass.params.begin(), pass.params.end(), [&](const dsl::ParamsUse& use) { return use.id == id; })) text += fmt::format("  pass {} reads it\n", pass.name);
   return text;
 }
 

@@ -103,10 +103,10 @@ Found between(const dsl::Graph& graph, const std::vector<dsl::PassId>& group, ds
 // A parameter block of a pass belongs to that pass alone.
 Found owned_params(const dsl::Graph& graph, const dsl::Pass& pass) {
   if (!pass.fusion.valid() || !graph.fusions[pass.fusion].when) return {};
-  for (const dsl::ParamsId params : pass.params)
-    if (graph.params[params].pass.valid())
-      return obstacle("its parameter block `" + graph.params[params].name + "` would belong to two passes; make it a parameter of the graph",
-                      {{graph.params[params].span, "it is declared here"}});
+  for (const dsl::ParamsUse& use : pass.params)
+    if (graph.params[use.id].pass.valid())
+      return obstacle("its parameter block `" + graph.params[use.id].name + "` would belong to two passes; make it a parameter of the graph",
+                      {{graph.params[use.id].span, "it is declared here"}});
   return {};
 }
 

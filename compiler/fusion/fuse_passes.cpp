@@ -46,7 +46,7 @@ class Blocks {
   const FlatSource& source(const dsl::Pass& pass) {
     const std::string& path = pass.shaders[0].path;
     const auto [at, fresh] = flat_.try_emplace(path);
-    if (fresh) at->second = flatten(path, [this](const std::string& file) { return text_of(file); });
+    if (fresh) at->second = flatten(path, [this](const std::string& file, std::string& why) { return text_of(file, why); });
     return at->second;
   }
 
@@ -54,7 +54,7 @@ class Blocks {
   void check(const dsl::Graph& graph, const dsl::Pass& pass) {
     const FlatSource& flat = source(pass);
     if (!flat.missing.empty())
-      return void(diagnostics_.report(DiagnosticKind::ShaderNotReadable, pass.shaders[0].span, {flat.missing, "no such file, or no permission"}));
+      return void(diagnostics_.report(DiagnosticKind::ShaderNotReadable, pass.shaders[0].span, {flat.missing, flat.why}));
     const std::vector<GlslWord> words = glsl_words(flat.text);
     if (checked_.insert(pass.shaders[0].path).second && !check_words(pass, words)) return;
     check_functions(pass, global_names(words));
@@ -64,8 +64,9 @@ class Blocks {
   std::vector<std::string> read_files() const { return sources_.readable_paths(); }
 
  private:
-  std::optional<std::string> text_of(const std::string& path) {
+  std::optional<std::string> text_of(const std::string& path, std::string& why) {
     const std::string* text = sources_.find(path);
+    if (text == nullptr) why = sources_.why_not(path);
     return text == nullptr ? std::nullopt : std::optional(*text);
   }
 
@@ -95,7 +96,7 @@ class Blocks {
     for (const dsl::Access& access : pass.accesses)
       if (access.element || access.role == dsl::Role::sampled || access.role == dsl::Role::storage || access.role == dsl::Role::uniform)
         need(access.name, access.span);
-    for (const dsl::ParamsId params : pass.params) need(graph.params[params].name, graph.params[params].span);
+    for (const dsl::ParamsUse& use : pass.params) need(graph.params[use.id].name, use.span);
   }
 
   void check_functions(const dsl::Pass& pass, const std::set<std::string>& names) {

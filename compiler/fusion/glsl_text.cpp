@@ -1,7 +1,6 @@
 #include "compiler/fusion/glsl_text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <sstream>
 
 #include "compiler/shaders/sources.h"
@@ -9,10 +8,7 @@
 namespace rg::compiler {
 namespace {
 
-constexpr size_t kMaxDepth = 32;
-
-bool starts_name(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+constexpr size_t kMaxDepth = 32, kMaxIncludes = 1024;
 
 // `#include "x"`: x; else nothing.
 std::string included(const std::string& line) {
@@ -29,8 +25,12 @@ class Flattener {
   explicit Flattener(const ReadFile& read) : read_(read) {}
 
   void add(const std::string& path, size_t depth) {
-    const auto text = read_(path);
-    if (!text || depth > kMaxDepth) return note_missing(path);
+    if (!out.missing.empty()) return;  // nobody reads on
+    std::string why;
+    const auto text = read_(path, why);
+    if (!text) return note_missing(path, why);
+    if (depth > kMaxDepth) return note_missing(path, "more than " + std::to_string(kMaxDepth) + " files include one another in a row");
+    if (++count_ > kMaxIncludes) return note_missing(path, "more than " + std::to_string(kMaxIncludes) + " files are included");
     if (std::find(out.files.begin(), out.files.end(), path) == out.files.end()) out.files.push_back(path);
     out.text += "#line 1 \"" + path + "\"\n";
     std::istringstream lines(*text);
@@ -49,81 +49,23 @@ class Flattener {
   FlatSource out;
 
  private:
-  void note_missing(const std::string& path) {
-    if (out.missing.empty()) out.missing = path;
-  }
+  void note_missing(const std::string& path, const std::string& why) { out.missing = path, out.why = why; }
   std::string find(const std::string& from, const std::string& header) {
+    std::string ignored;
     for (const std::string& folder : {folder_of(from), std::string()})
-      if (const auto path = resolve_path(folder, header); path && read_(*path)) return *path;
+      if (const auto path = resolve_path(folder, header); path && read_(*path, ignored)) return *path;
     return header;
   }
   const ReadFile& read_;
-};
-
-struct Scanner {
-  std::string_view text;
-  size_t at = 0;
-  uint32_t line = 1;
-  std::string_view file = {};
-  bool fresh = true, directive = false;  // at the start of a line; on a line of the preprocessor
-
-  void newline() {
-    const bool goes_on = directive && at > 0 && text[at - 1] == '\\';
-    ++line, fresh = true, directive = goes_on;
-  }
-  void skip_comment() {
-    const bool block = text[at + 1] == '*';
-    const size_t end = text.find(block ? "*/" : "\n", at + 2);
-    const size_t stop = end == std::string_view::npos ? text.size() : end + (block ? 2 : 0);
-    for (; at < stop; ++at)
-      if (text[at] == '\n') ++line;
-  }
-  size_t word_end() const {
-    size_t end = at + 1;
-    if (is_word(text[at]))
-      while (end < text.size() && is_word(text[end])) ++end;
-    return end;
-  }
+  size_t count_ = 0;
 };
 
 }  // namespace
-
-bool GlslWord::is_name() const { return !text.empty() && starts_name(text[0]); }
 
 FlatSource flatten(const std::string& path, const ReadFile& read) {
   Flattener flattener(read);
   flattener.add(path, 0);
   return std::move(flattener.out);
-}
-
-std::vector<GlslWord> glsl_words(std::string_view text) {
-  std::vector<GlslWord> words;
-  Scanner scan{text};
-  while (scan.at < text.size()) {
-    const char c = text[scan.at];
-    if (c == '\n') {
-      scan.newline();
-      ++scan.at;
-    } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
-      ++scan.at;
-    } else if (c == '/' && scan.at + 1 < text.size() && (text[scan.at + 1] == '/' || text[scan.at + 1] == '*')) {
-      scan.skip_comment();
-    } else if (scan.fresh && c == '#' && text.substr(scan.at, 6) == "#line ") {
-      const size_t end = std::min(text.find('\n', scan.at), text.size());
-      const std::string_view rest = text.substr(scan.at + 6, end - scan.at - 6);
-      scan.line = static_cast<uint32_t>(std::strtoul(std::string(rest).c_str(), nullptr, 10)) - 1;
-      const size_t open = rest.find('"'), close = rest.rfind('"');
-      if (open != std::string_view::npos && close > open) scan.file = rest.substr(open + 1, close - open - 1);
-      scan.at = end;
-    } else {
-      scan.directive |= scan.fresh && c == '#';
-      scan.fresh = false;
-      const size_t end = scan.word_end();
-      words.push_back({text.substr(scan.at, end - scan.at), scan.at, scan.line, scan.file, scan.directive});
-      scan.at = end;
-    }
-  }
-  return words;
 }
 
 std::set<std::string> global_names(const std::vector<GlslWord>& words) {

@@ -1,13 +1,13 @@
-// GLSL as words: enough of it to give several pieces of source names that do not meet in one shader.
+// GLSL from several pieces of source: enough of it to give them names that do not meet in one shader.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "compiler/shaders/glsl_words.h"
 #include "compiler/shaders/shaders.h"
 
 namespace rg::compiler {
@@ -16,21 +16,10 @@ namespace rg::compiler {
 struct FlatSource {
   std::string text;
   std::vector<std::string> files;  // in order of first mention
-  std::string missing;             // the first file that cannot be read; empty: none
+  std::string missing, why;        // the first file that cannot be read; empty: none
 };
-// `path` is relative to the root folder. An `#include` looks beside the including file, then in the root folder, 32 deep.
+// `path` is relative to the root folder. An `#include` looks beside the including file, then in the root folder, 32 deep and up to 1,024 in all.
 FlatSource flatten(const std::string& path, const ReadFile& read);
-
-// A word of GLSL: an identifier, a number, or one character of anything else. Comments are none.
-struct GlslWord {
-  std::string_view text;
-  size_t at = 0;            // offset
-  uint32_t line = 0;        // as `#line` counts
-  std::string_view file;    // as `#line` says
-  bool directive = false;   // on a line that begins with `#`
-  bool is_name() const;
-};
-std::vector<GlslWord> glsl_words(std::string_view text);
 
 // What the text declares outside braces: functions, variables, constants, structs, macros. What a macro declares is not found.
 std::set<std::string> global_names(const std::vector<GlslWord>& words);

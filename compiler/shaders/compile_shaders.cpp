@@ -5,6 +5,7 @@
 #include "compiler/shaders/floor.h"
 #include "compiler/shaders/shader_jobs.h"
 #include "compiler/shaders/stage_interface.h"
+#include "compiler/shaders/statistics.h"
 
 namespace rg::compiler {
 namespace {
@@ -132,7 +133,7 @@ class BundleBuilder {
     const auto [at, is_new] = known_.try_emplace({stage, words}, bundle.shaders.size());
     if (!is_new) return at->second;
     const size_t number = ++uses_of_name_[path];
-    bundle.shaders.push_back({number == 1 ? path : path + "." + std::to_string(number), stage, words});
+    bundle.shaders.push_back({number == 1 ? path : path + "." + std::to_string(number), stage, words, shared_bytes(words)});
     return bundle.shaders.size() - 1;
   }
   ShaderBundle bundle;

@@ -5,11 +5,15 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
+
+#include "compiler/shaders/expansion.h"
+#include "compiler/shaders/variants.h"
 
 namespace rg::compiler {
 namespace {
@@ -33,20 +37,47 @@ EShLanguage language(dsl::Stage stage) {
   }
 }
 
+// A shader's texts and how long each becomes.
+class Lengths {
+ public:
+  Lengths(const std::string& prelude, const std::vector<SourceText>& closure) {
+    add("", prelude);
+    for (const SourceText& source : closure)
+      if (source.text != nullptr) add(source.path, *source.text);
+  }
+  Expansions::Measure of(const std::string& path) {
+    const auto found = words_.find(path);
+    return found == words_.end() ? Expansions::Measure{} : expansions_.measure(found->second);
+  }
+
+ private:
+  void add(const std::string& path, std::string_view text) { expansions_.add_macros(words_.emplace(path, glsl_words(text)).first->second); }
+  std::map<std::string, std::vector<GlslWord>> words_;
+  Expansions expansions_;
+};
+
 class Includer : public glslang::TShader::Includer {
  public:
-  Includer(ShaderSources& sources, const std::string& path, std::set<std::string>& names) : sources_(sources), path_(path), names_(names) {}
+  Includer(ShaderSources& sources, const std::string& path, std::set<std::string>& names, Lengths& lengths)
+      : sources_(sources), path_(path), names_(names), lengths_(lengths) {}
 
   IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
-    if (depth > kMostIncludes) return fail(loops_ ? "it includes itself, directly or through others" : "more than 32 files include one another in a row");
+    if (!stopped_.empty()) return fail(stopped_);  // glslang goes on, and files that include twice would take as long as without a limit
+    if (depth > kMostDepth) return stop(loops_ ? "it includes itself, directly or through others" : "more than 32 files include one another in a row");
+    if (++count_ > kMostIncludes) return stop("more than 1024 files are included");
     // glslang calls every line of the first level by the name of the first string.
     const std::string from = includer == kPreludeName ? path_ : includer;
-    const char* why = "it is outside the folder of the root file";
+    std::string why;
     for (const std::string& folder : {folder_of(from), std::string()}) {
       const auto path = resolve_path(folder, header);
       const std::string* found = path ? sources_.find(*path) : nullptr;
-      if (path) why = "there is no such file, or it cannot be read";
-      if (found == nullptr) continue;
+      const std::string problem = path ? sources_.why_not(*path) : "it is outside the folder of the root file";
+      if (found == nullptr) {
+        why += why.empty() ? problem : why == problem ? "" : "; from the root file: " + problem;
+        continue;
+      }
+      words_ += lengths_.of(*path).words;
+      if (words_ > kMostWords) return stop("the text becomes longer than " + std::to_string(kMostWords) + " words");
       enter(*path, depth);
       names_.insert(*path);
       return new IncludeResult(*path, found->data(), found->size(), nullptr);
@@ -58,14 +89,16 @@ class Includer : public glslang::TShader::Includer {
   void releaseInclude(IncludeResult* result) override { delete result; }
 
  private:
-  static constexpr size_t kMostIncludes = 32;
+  static constexpr size_t kMostDepth = 32, kMostIncludes = 1024;
   static constexpr const char* kNoSystem = "write \"PATH\": there are no files of the system";
 
   // Without a name, a text is the message that glslang gives.
-  IncludeResult* fail(const char* why) {
+  IncludeResult* fail(const std::string& why) {
     why_ = why;
-    return new IncludeResult("", why, std::string_view(why).size(), nullptr);
+    const std::string& kept = *told_.insert(why).first;
+    return new IncludeResult("", kept.data(), kept.size(), nullptr);
   }
+  IncludeResult* stop(const std::string& why) { return fail(stopped_ = why); }
   // A file within itself may stop at a guard, so that only the depth counts.
   void enter(const std::string& path, size_t depth) {
     inside_.resize(std::min(inside_.size(), depth > 0 ? depth - 1 : 0));
@@ -76,9 +109,13 @@ class Includer : public glslang::TShader::Includer {
   ShaderSources& sources_;
   const std::string& path_;
   std::set<std::string>& names_;
+  Lengths& lengths_;
   std::vector<std::string> inside_;  // the files around the current one
   bool loops_ = false;
-  const char* why_ = kNoSystem;
+  size_t count_ = 0;
+  uint64_t words_ = 0;
+  std::string why_ = kNoSystem, stopped_;
+  std::set<std::string> told_;  // texts that glslang was given
 };
 
 void start_glslang() {
@@ -136,6 +173,11 @@ void configure(glslang::TShader& shader, dsl::Stage stage) {
 }  // namespace
 
 FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources) {
+  Lengths becomes(prelude, include_closure(path, text, sources));
+  if (const Expansions::Measure measure = becomes.of(path); measure.words > kMostWords) {
+    const std::string place(measure.longest->file);
+    return {{}, {{place.empty() ? path : place, measure.longest->line, "", std::string(measure.longest->text)}}};
+  }
   start_glslang();
   std::set<std::string> names = {std::string(kPreludeName), path};
   add_line_names(text, names);
@@ -148,7 +190,7 @@ FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const 
   const int skipped = prelude.empty() ? 1 : 0;
   shader.setStringsWithLengthsAndNames(texts + skipped, lengths + skipped, labels + skipped, 2 - skipped);
   configure(shader, stage);
-  Includer includer(sources, path, names);
+  Includer includer(sources, path, names, becomes);
   FrontEndOutput output;
   if (!shader.parse(GetDefaultResources(), 460, false, messages, includer)) {
     output.errors = parse_log(shader.getInfoLog(), names);

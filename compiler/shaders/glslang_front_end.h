@@ -15,6 +15,7 @@ struct ShaderMessage {
   std::string file;
   uint32_t line = 0;
   std::string text;  // "'foo' : undeclared identifier"
+  std::string expands = {};  // the macro that becomes longer than kMostWords, instead of a text
   friend bool operator==(const ShaderMessage&, const ShaderMessage&) = default;
 };
 
@@ -23,6 +24,7 @@ struct FrontEndOutput {
   std::vector<ShaderMessage> errors;
 };
 
+// Fails before glslang runs where macros or includes would make too much of the text, see expansion.h.
 // `path` is relative to the root folder; `#include` looks beside the including file, then in the root folder. Thread-safe.
 FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources);
 

@@ -128,7 +128,7 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
   const std::string place = "set = 1, binding = " + std::to_string(binding.binding);
   const std::string block = "rg_block_" + binding.name;
   if (binding.kind == BindingKind::params) {
-    const dsl::Type type{.record = graph.params[pass.params[binding.params]].type};
+    const dsl::Type type{.record = graph.params[pass.params[binding.params].id].type};
     return "layout(" + place + ", " + block_layout(program, type, "std140") + ") uniform " + block + " { " +
            glsl_variable(program, type, binding.name) + "; };";
   }
@@ -274,8 +274,8 @@ std::vector<InterfaceBinding> pass_bindings(const dsl::Program&, const dsl::Grap
     if (binding_kind(graph, access, binding.kind)) bindings.push_back(std::move(binding));
   }
   for (uint32_t i = 0; i < pass.params.size(); ++i) {
-    const dsl::Params& params = graph.params[pass.params[i]];
-    bindings.push_back({BindingKind::params, static_cast<uint32_t>(bindings.size()), dsl::kAll, i, params.name, params.span});
+    const dsl::Params& params = graph.params[pass.params[i].id];
+    bindings.push_back({BindingKind::params, static_cast<uint32_t>(bindings.size()), dsl::kAll, i, params.name, pass.params[i].span});
   }
   return bindings;
 }
@@ -319,7 +319,8 @@ Prelude make_prelude(const dsl::Program& program, const dsl::Graph& graph, const
     for (std::string& declaration : engine_set_declarations(*set)) prelude.push_back({std::move(declaration), set->span});
   for (const InterfaceBinding& binding : pass_bindings(program, graph, pass)) {
     if (is_input(pass, binding) && stage != dsl::stage_fragment) continue;
-    prelude.push_back({binding_text(program, graph, pass, binding), binding.span});
+    const bool block = binding.kind == BindingKind::params;  // named by who declares it, not by who takes it
+    prelude.push_back({binding_text(program, graph, pass, binding), block ? graph.params[pass.params[binding.params].id].span : binding.span});
     if (is_input(pass, binding)) prelude.push_back({input_text(graph, pass, binding), binding.span});
   }
   add_stage_interface(program, graph, pass, stage, prelude);

@@ -1,7 +1,10 @@
 // glslang says what the language forbids; here it becomes what the pass forbids, where the two are the same mistake.
 #include <algorithm>
+#include <cctype>
 
 #include "compiler/shaders/agreement.h"
+#include "compiler/shaders/expansion.h"
+#include "dsl/closest.h"
 
 namespace rg::compiler {
 namespace {
@@ -90,6 +93,39 @@ bool report_undeclared(const PassContext& context, const ShaderMessage& message,
   return true;
 }
 
+// The struct of what stands before `.field` in the line: `camera.field`, `lights[i].field`.
+dsl::StructId struct_before(const PassContext& context, const std::string& line, const std::string& field) {
+  size_t at = line.find("." + field);
+  if (at == std::string::npos) return {};
+  for (int depth = 0; at > 0 && (depth > 0 || line[at - 1] == ']'); --at) depth += line[at - 1] == ']' ? 1 : line[at - 1] == '[' ? -1 : 0;
+  const std::string before = line.substr(0, at);
+  const auto named = [&](const std::string& name) {
+    const auto is_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    return before.ends_with(name) && (before.size() == name.size() || !is_word(before[before.size() - name.size() - 1]));
+  };
+  for (const dsl::Access& access : context.pass.accesses)
+    if (named(access.name)) return context.graph.resources[access.resource].element.record;
+  for (const dsl::ParamsUse& use : context.pass.params)
+    if (named(last_part(context.graph.params[use.id].name))) return context.graph.params[use.id].type;
+  return named("per_draw") ? context.pass.draw.per_draw : dsl::StructId{};
+}
+
+bool report_field(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
+  if (!contains(message.text, "no such field in structure")) return false;
+  const std::string field = quoted_word(message.text);
+  const dsl::StructId id = struct_before(context, places.text_of_line(message.file, message.line), field);
+  if (!id.valid()) return false;
+  const dsl::Struct& record = context.program.structs[id];
+  const dsl::Span span = places.word_in_line(message.file, message.line, field);
+  std::vector<std::string_view> fields;
+  for (const dsl::Field& each : record.fields) fields.push_back(each.name);
+  dsl::Diagnostic error(DiagnosticKind::UnknownName, span, {"field of struct `" + record.name + "`", field});
+  error.note(DiagnosticKind::DeclaredHere, record.span, {record.name});
+  dsl::suggest(error, span, dsl::closest(field, fields));
+  diagnostics.report(std::move(error));
+  return true;
+}
+
 bool report_local_size(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
   if (!contains(message.text, "local_size") || !contains(message.text, "cannot change previously set size")) return false;
   const bool told = std::any_of(diagnostics.rows().begin(), diagnostics.rows().end(), [&](const dsl::Diagnostic& each) {
@@ -99,6 +135,14 @@ bool report_local_size(const PassContext& context, const ShaderMessage& message,
   diagnostics.report(DiagnosticKind::LocalSizeInShader, places.line(message.file, message.line), {context.pass.name})
       .note(DiagnosticKind::GroupOfPass, context.pass.span);
   return true;
+}
+
+// What a name is in GLSL follows from its declaration, which glslang does not know of.
+void note_types(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostic& error) {
+  if (!contains(message.text, "no matching overloaded function") && !contains(message.text, "can't use with samplers")) return;
+  const dsl::Span line = places.line(message.file, message.line);
+  for (const dsl::Access& access : context.pass.accesses)
+    if (places.word_in_line(message.file, message.line, access.name) != line) error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
 }
 
 // A name the declaration chose and GLSL refuses, `input` for one.
@@ -114,14 +158,22 @@ void report_in_prelude(const PassContext& context, const dsl::Shader& shader, co
 
 void report_message(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message, ShaderPlaces& places,
                     dsl::Diagnostics& diagnostics) {
+  if (!message.expands.empty())
+    return void(diagnostics
+                    .report(DiagnosticKind::ExpandsTooFar, places.word_in_line(message.file, message.line, message.expands),
+                            {message.expands, std::to_string(kMostWords)})
+                    .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name}));
   if (message.file.empty() && message.line > 0) return report_in_prelude(context, shader, prelude, message, diagnostics);
   if (!message.file.empty() && (report_contradiction(context, message, places, diagnostics) ||
-                                report_undeclared(context, message, places, diagnostics) || report_local_size(context, message, places, diagnostics)))
+                                report_undeclared(context, message, places, diagnostics) || report_field(context, message, places, diagnostics) ||
+                                report_local_size(context, message, places, diagnostics)))
     return;
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
-  diagnostics.report(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)})
-      .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+  dsl::Diagnostic error(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)});
+  if (!message.file.empty()) note_types(context, message, places, error);
+  error.note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
+  diagnostics.report(std::move(error));
 }
 
 }  // namespace rg::compiler

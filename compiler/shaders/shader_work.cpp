@@ -49,7 +49,7 @@ class Collector {
     if (!use.shader.text.empty()) return &sources_.keep(use.shader.path, use.shader.text);
     const auto path = resolve_path("", use.shader.path);  // the checker made it relative to the root folder
     const std::string* text = path ? sources_.find(*path) : nullptr;
-    const char* problem = path ? "no such file, or no permission" : "it lies outside the root file's folder";
+    const std::string problem = path ? sources_.why_not(*path) : "it lies outside the root file's folder";
     if (text == nullptr) diagnostics_.report(dsl::DiagnosticKind::ShaderNotReadable, use.shader.span, {use.shader.path, problem});
     if (path) use.path = *path;
     return text;

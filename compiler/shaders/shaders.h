@@ -12,8 +12,8 @@
 
 namespace rg::compiler {
 
-// How the compiler reads shader sources; `path` is relative to the root file's folder and never leaves it.
-using ReadFile = std::function<std::optional<std::string>(const std::string& path)>;
+// How the compiler reads shader sources; `path` is relative to the root file's folder and never leaves it. Nothing, and `why`, where it cannot.
+using ReadFile = std::function<std::optional<std::string>(const std::string& path, std::string& why)>;
 
 // One selection of a pass's features. A pass has a row for every combination that some feature configuration of the graph leaves open to it.
 struct VariantRow {
@@ -36,6 +36,7 @@ struct CompiledShader {
   std::string name;  // "culling/light_cull.comp", made unique per interface by a suffix where needed
   dsl::Stage stage = dsl::stage_compute;
   std::vector<uint32_t> words;  // validated, optimised, stripped SPIR-V 1.5
+  uint32_t shared_bytes = 0;    // of workgroup memory, see statistics.h
 };
 struct PassShaders {
   std::vector<size_t> shaders;                             // indices of ShaderBundle::shaders, in stage order, of the first live row

@@ -17,13 +17,22 @@ const std::string* ShaderSources::find(const std::string& path) {
   const std::lock_guard lock(mutex_);
   if (const auto own = own_texts_.find(path); own != own_texts_.end()) return &own->second;
   auto [at, is_new] = texts_.try_emplace(path);
-  if (is_new) at->second = read_(path);
+  if (std::string why; is_new) {
+    at->second = read_(path, why);
+    if (!at->second) reasons_[path] = why.empty() ? "it cannot be read" : why;
+  }
   return at->second ? &*at->second : nullptr;
 }
 
 const std::string& ShaderSources::keep(const std::string& path, const std::string& text) {
   const std::lock_guard lock(mutex_);
   return own_texts_[path] = text;
+}
+
+std::string ShaderSources::why_not(const std::string& path) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = reasons_.find(path);
+  return found == reasons_.end() ? "" : found->second;
 }
 
 std::vector<std::string> ShaderSources::readable_paths() const {

@@ -21,6 +21,8 @@ class ShaderSources {
   explicit ShaderSources(ReadFile read) : read_(std::move(read)) {}
   // Null if unreadable. The text lives as long as this object.
   const std::string* find(const std::string& path);
+  // Of a path that was not found: "no such file", "permission denied".
+  std::string why_not(const std::string& path) const;
   // A text the compiler wrote itself, findable from now on under `path`, which the reader is not asked for and which does not count as read.
   const std::string& keep(const std::string& path, const std::string& text);
   std::vector<std::string> readable_paths() const;  // sorted
@@ -29,6 +31,7 @@ class ShaderSources {
   ReadFile read_;
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<std::string>> texts_;
+  std::map<std::string, std::string> reasons_;  // of those without a text
   std::map<std::string, std::string> own_texts_;
 };
 

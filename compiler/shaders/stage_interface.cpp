@@ -98,9 +98,8 @@ bool check_stage_interface(const PassContext& context, const ShaderUse& vertex, 
     const auto written = std::find_if(outputs.begin(), outputs.end(), same);
     if (written != outputs.end() && fits(input, *written)) continue;
     const std::string found = written == outputs.end() ? "nothing there" : "`" + written->type + " " + written->name + "`";
-    dsl::Diagnostic& error = diagnostics.report(
-        dsl::DiagnosticKind::ShaderDoesNotCompile, places.word(fragment.path, input.name),
-        {"`" + input.type + " " + input.name + "` is read at location " + std::to_string(input.location) + ", and the vertex shader writes " + found});
+    dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::StagesDisagree, places.word(fragment.path, input.name),
+                                                {input.type + " " + input.name, std::to_string(input.location), context.pass.name, found});
     if (written == outputs.end() || is_generated_fullscreen(vertex))
       error.note(dsl::DiagnosticKind::ShaderOfPass, vertex.shader.span, {context.pass.name});
     else

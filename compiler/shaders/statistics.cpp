@@ -281,7 +281,7 @@ class Liveness {
   BitRows in_{0, 0}, out_{0, 0}, defined_{0, 0};
 };
 
-uint32_t shared_bytes(const Module& m) {
+uint32_t shared_bytes_of(const Module& m) {
   uint32_t bytes = 0;
   for (const Instruction& i : m.globals) {
     if (i.op != spv::OpVariable || i.words[3] != spv::StorageClassWorkgroup) continue;
@@ -293,6 +293,14 @@ uint32_t shared_bytes(const Module& m) {
 
 }  // namespace
 
+uint32_t shared_bytes(const Words& words) {
+  constexpr size_t kHeaderWords = 5;
+  bool found = false;
+  for (size_t at = kHeaderWords; at < words.size() && !found; at += std::max<size_t>(words[at] >> spv::WordCountShift, 1))
+    found = (words[at] & spv::OpCodeMask) == spv::OpVariable && at + 3 < words.size() && words[at + 3] == spv::StorageClassWorkgroup;
+  return found ? find_statistics(words).shared_bytes : 0;
+}
+
 ShaderStatistics find_statistics(const Words& words) {
   Module module = read(words);
   std::vector<uint32_t> type_of(module.scalars.size());
@@ -301,7 +309,7 @@ ShaderStatistics find_statistics(const Words& words) {
     if (i.result != 0) type_of[i.result] = i.type;
   }
   ShaderStatistics statistics;
-  statistics.shared_bytes = shared_bytes(module);
+  statistics.shared_bytes = shared_bytes_of(module);
   for (const auto& function : module.functions) {
     std::vector<uint32_t> sizes(module.scalars.size());  // of values made here: constants are not
     for (const Instruction& i : function) {

@@ -27,6 +27,9 @@ struct ShaderStatistics {
 // Each count's greater one.
 ShaderStatistics greatest(const ShaderStatistics& a, const ShaderStatistics& b);
 
+// ShaderStatistics::shared_bytes alone. `words` is a valid module. O(words) where it declares no workgroup memory.
+uint32_t shared_bytes(const Words& words);
+
 // `words` is a valid module. O(instructions + sweeps * blocks * values / 64); sweeps are as many as loops nest, and one.
 ShaderStatistics find_statistics(const Words& words);
 

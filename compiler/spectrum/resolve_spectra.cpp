@@ -89,9 +89,10 @@ std::optional<SpectrumProfile> find_profile(const dsl::Spectrum& spectrum, const
     diagnostics.report(DiagnosticKind::NoProfile, spectrum.span, {spectrum.name});
     return std::nullopt;
   }
-  const auto text = replaced ? read_override(path) : read(path);
+  std::string why;
+  const auto text = replaced ? read_override(path, why) : read(path, why);
   if (!text) {
-    diagnostics.report(DiagnosticKind::SpectrumProfileNotReadable, span, {path, "no such file, or no permission"});
+    diagnostics.report(DiagnosticKind::SpectrumProfileNotReadable, span, {path, why});
     return std::nullopt;
   }
   ProfileResult result = read_profile(spectrum, *text);

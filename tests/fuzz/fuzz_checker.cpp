@@ -46,7 +46,7 @@ void expect_whole(const Program& program) {
     for (const Pass& pass : graph.passes) {
       for (const Access& access : pass.accesses) RG_CHECK(access.resource.value < graph.resources.size(), "an access names a resource");
       for (const PassId other : pass.after) RG_CHECK(other.value < graph.passes.size(), "`after` names a pass");
-      for (const ParamsId params : pass.params) RG_CHECK(params.value < graph.params.size(), "a pass names its parameters");
+      for (const ParamsUse& use : pass.params) RG_CHECK(use.id.value < graph.params.size(), "a pass names its parameters");
       for (const Guard::Term& term : pass.guard.terms)
         RG_CHECK(term.value < program.features[term.feature].values.size(), "a guard names a value of its feature");
     }

@@ -24,6 +24,6 @@ graph g(image a, surface s: rgba8 4x4) {  //~ error[RG0235]: parameter `a` is of
   pass q : compute { write x[0] as storage }  //~ error[RG0240]: `x` is declared without an index
   pass r : compute { write z[1] as storage }  //~ error[RG0241]: `z` has no element 1
 
-  pass u : compute { write s as storage  after late  after p }  //~ error[RG0246]: no earlier pass is called `late`
+  pass u : compute { write s as storage  after late  after p }  //~ error[RG0246]: pass `u` runs after `late`, and no earlier pass is called that
   pass late : compute { write s as storage }
 }

@@ -11,7 +11,7 @@ graph g(scene: Scene, surface s: rgba8 4x4) {
   pass p3 : compute { write a.depth as storage }  //~ error[RG0310]: `a` has no depth aspect
   pass p4 : compute { write b.mip(0) as storage }  //~ error[RG0312]: `b` is a buffer, which has no `mip`
   pass p5 : compute { read a.prev(1) as sampled }  //~ error[RG0307]: `a` keeps no history
-  pass p6 : compute { read h.prev(3) as sampled }  //~ error[RG0308]: `h` keeps 2 previous versions; `prev(3)` is not one of them
+  pass p6 : compute { read h.prev(3) as sampled }  //~ error[RG0308]: `h` keeps `history 2`: there is no `prev(3)`
   pass p7 : compute { write h.prev(1) as storage }  //~ error[RG0309]: `h.prev(1)` belongs to an earlier frame; only `h` can be written
   pass p8 : compute { write b.bytes(0, 0) as storage }  //~ error[RG0313]: the byte range is empty or begins before the buffer
   pass p9 : compute { write a.mop(0) as storage }  //~ error[RG0223]: there is no part called `mop`

@@ -24,9 +24,9 @@ graph g(surface s: rgba8 4x4) {
   pass p17 : raster { shader "x.frag"  color s clear 0  draw 3 }  //~ error[RG0382]: pass `p17` has no vertex shader
   pass p18 : raster { shader "x.vert"  color s clear 0  draw indirect pairs max 4 }  //~ error[RG0383]: the elements of `pairs` are 8 bytes; indirect arguments take 16
   pass p19 : raster { color s clear 0  draw host { per_draw Big } }  //~ error[RG0384]: struct `Big` is 192 bytes; push constants have 128
-  pass p20 : raster queue compute { color s clear 0 }  //~ error[RG0385]: a raster pass cannot run on a compute queue
+  pass p20 : raster queue compute { color s clear 0 }  //~ error[RG0385]: raster pass `p20` cannot run on a compute queue
   pass p21 : compute { shader "x.comp" group 0 1 1  write s as storage  dispatch over 4 }  //~ error[RG0218]: 0 is not between 1 and 1024
-  pass p22 : compute { shader "x.comp"  write s as storage  dispatch over 4 }  //~ error[RG0106]: expected `group X Y Z` after `x.comp`
-  pass p23 : compute { shader "x.comp" group 8 8 1  write s as storage  dispatch groups 4294967297 }  //~ error[RG0218]: a dispatch of 4294967297 groups along an axis is not between 1 and 65535
-  pass p24 : raster { color s clear 0  shader "x.vert"  draw 4294967299 }  //~ error[RG0218]: a draw of 4294967299 is not between 1 and 4294967295
+  pass p22 : compute { shader "x.comp"  write s as storage  dispatch over 4 }  //~ error[RG0258]: compute shader `x.comp` has no group size; write `group X Y Z` behind it
+  pass p23 : compute { shader "x.comp" group 8 8 1  write s as storage  dispatch groups 4294967297 }  //~ error[RG0259]: pass `p23` dispatches 4294967297 groups along an axis, and 65535 are the most that a command takes
+  pass p24 : raster { color s clear 0  shader "x.vert"  draw 4294967299 }  //~ error[RG0259]: pass `p24` draws 4294967299 vertices, and 4294967295 are the most that a command takes
 }

@@ -214,6 +214,42 @@ void attach_depth_only(Device& device, Layout layout, uint32_t aspects) {
   EXPECT_EQ(test::as<float>(dump->bytes), std::vector<float>(256, 0.5f));
 }
 
+// The stencil of an image whose depth nobody has written: cleared in one pass, tested in the next.
+void attach_stencil_only(Device& device, Layout layout, uint32_t aspects) {
+  test::TestPlan p;
+  const Index side = p.constant(16),
+              image = p.image("mask", Format{130}, side, side, test::kDepthAttachment | test::kCopySrc, aspect_depth | aspect_stencil);
+  constexpr Stages tests = stage::early_fragment_tests | stage::late_fragment_tests;
+  constexpr Accesses all = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write;
+  for (const bool first : {true, false}) {
+    ImageBarrier barrier = test::discard(image, tests, all, layout, tests);
+    barrier.src_accesses = access::depth_stencil_attachment_write, barrier.range.aspects = aspects;
+    if (!first) barrier.old_layout = layout;
+    p.barriers({barrier});
+    Attachment mask;
+    mask.ref = {image, 0}, mask.range.aspects = aspect_stencil, mask.layout = layout, mask.load = first ? LoadOp::clear : LoadOp::load;
+    mask.clear.word[1] = 7;
+    Rendering rendering;
+    rendering.stencil = test::TestPlan::add(p.attachments, mask), rendering.width = rendering.height = side;
+    Pass pass;
+    pass.name = first ? "mark" : "test", pass.kind = PassKind::raster, pass.rendering = test::TestPlan::add(p.renderings, rendering);
+    p.pass(pass, {test::touches({image, 0}, tests, access::depth_stencil_attachment_write, layout, true)});
+  }
+  Result<GraphInstance> graph = GraphInstance::create(device, p.view(), {});
+  ASSERT_TRUE(graph) << graph.error().message;
+  for (int frame = 0; frame < 3; ++frame) RG_ASSERT_OK(graph->execute({}));
+  RG_ASSERT_OK(graph->wait_idle());
+}
+
+TEST_F(Frames, StencilIsAttachedWithoutItsDepth) {
+  for (const bool validate : {false, true}) {
+    RG_OPEN_DEVICE(device, validate);
+    attach_stencil_only(device, Layout::stencil_attachment, aspect_stencil);
+    attach_stencil_only(device, Layout::depth_stencil_attachment, aspect_depth | aspect_stencil);
+    EXPECT_EQ(device.validation_messages(), 0u) << all_messages();
+  }
+}
+
 TEST_F(Frames, DepthIsAttachedWithoutItsStencil) {
   for (const bool validate : {false, true}) {
     RG_OPEN_DEVICE(device, validate);

@@ -14,10 +14,14 @@ using dsl::DiagnosticKind;
 
 struct Case {
   std::string frame, profile;
+  std::string shader = {};
 };
 
+constexpr const char* kNoProfile = "none";
+
 dsl::Diagnostics check(const Case& input) {
-  const std::map<std::string, std::string> files = {{"frame.rg", "target profile \"p.json\"\n" + input.frame}, {"p.json", input.profile}};
+  const std::string target = input.profile == kNoProfile ? "" : "target profile \"p.json\"\n";
+  const std::map<std::string, std::string> files = {{"frame.rg", target + input.frame}, {"p.json", input.profile}, {"p.comp", input.shader}};
   const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
     const auto at = files.find(path);
     if (at != files.end()) return at->second;
@@ -78,6 +82,29 @@ TEST(Profiles, LimitsCountAtTheLargestExtents) {
   EXPECT_EQ(check({frame, profile("")}).rows().size(), 2u);
 }
 
+// Arrays of a shader are no declaration of the frame: what they take is judged once the shader is compiled.
+TEST(Profiles, SharedMemoryHasALimit) {
+  const std::string frame =
+      "graph g(surface s: rgba8 64x64) { image a : rgba16f 64x64 pass p : compute { shader \"p.comp\" group 64 1 1 write a as storage dispatch over a }\n"
+      "pass q : raster { read a as sampled in fragment color s clear 0 } }";
+  const auto of = [&](int vectors, const std::string& promise) {
+    const std::string shader = "shared vec4 all[" + std::to_string(vectors) +
+                               "];\nvoid main() { all[gl_LocalInvocationIndex] = vec4(1.0); barrier(); imageStore(a, ivec2(0), all[gl_LocalInvocationIndex ^ 1u]); }";
+    return check({frame, promise, shader});
+  };
+  const std::string most = R"("maxComputeWorkGroupInvocations": 128, "maxComputeSharedMemorySize": 32768)";
+  EXPECT_TRUE(of(2048, profile("", most)).rows().empty());
+  EXPECT_TRUE(of(1024, profile("")).rows().empty());
+  EXPECT_TRUE(of(1024, kNoProfile).rows().empty());
+  const dsl::Diagnostics beyond = of(2049, profile("", most)), without = of(1025, kNoProfile);
+  ASSERT_EQ(kinds(beyond), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
+  EXPECT_EQ(beyond.rows()[0].message(),
+            "shader `p.comp` of pass `p` takes 32784 bytes of shared memory and profile `VP_TEST` promises 32768; take less, or target a profile that promises "
+            "more");
+  ASSERT_EQ(kinds(without), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
+  EXPECT_EQ(without.rows()[0].arguments[3], "vulkan 1.3");
+}
+
 TEST(Profiles, EveryProfileOfAFileCounts) {
   const std::string two = R"({"capabilities": {"with": {"features": {"VkPhysicalDeviceFeatures": {"textureCompressionBC": true}}}, "without": {}},
     "profiles": {"VP_A": {"api-version": "1.3.0", "capabilities": ["with"]}, "VP_B": {"api-version": "1.3.0", "capabilities": ["without"]}}})";
@@ -116,11 +143,11 @@ TEST(Profiles, EveryOptionalFeatureIsFound) {
   };
   const std::map<std::string, std::string> uses = {
       {"imageCubeArray", graph("image c : rgba8 64x64 cube layers 2 output pass p : transfer { clear c 0 }")},
-      {"samplerAnisotropy", graph("image a : rgba8 64x64 pass p : transfer { clear a 0 } pass q : compute { read a as sampled(fine) }",
+      {"samplerAnisotropy", graph("image a : rgba8 64x64 pass p : transfer { clear a 0 } pass q : compute { keep read a as sampled(fine) }",
                                   "sampler fine { filter linear anisotropy 8 }\n")},
-      {"independentBlend", graph("image a : rgba8 64x64 pass p : raster { color a clear 0 color s clear 0 blend add(one, one) }")},
-      {"fragmentStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { color s clear 0 atomic b as storage in fragment clear 0 }")},
-      {"vertexPipelineStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { color s clear 0 atomic b as storage in vertex clear 0 }")},
+      {"independentBlend", graph("image a : rgba8 64x64 pass p : raster { keep color a clear 0 color s clear 0 blend add(one, one) }")},
+      {"fragmentStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { keep color s clear 0 atomic b as storage in fragment clear 0 }")},
+      {"vertexPipelineStoresAndAtomics", graph("buffer b : u32[4] pass p : raster { keep color s clear 0 atomic b as storage in vertex clear 0 }")},
       {"shaderStorageImageExtendedFormats", graph("image a : r8 64x64 output pass p : compute { write a as storage }")},
       {"shaderStorageImageMultisample", graph("image a : rgba8 64x64 samples 4 output pass p : compute { write a as storage }")},
   };

@@ -120,12 +120,35 @@ TEST(Suggestions, AMissingBraceStandsUnderItsBlock) {
   EXPECT_NE(print(loaded.diagnostics, loaded.result.files, false).find("= fix: insert a line `}`\n"), std::string::npos);
 }
 
-TEST(Messages, OnlyAHundredErrorsArePrinted) {
+TEST(Suggestions, AForgottenOpeningBraceIsOneMistake) {
+  for (const char* text : {"struct Light\n  place: vec3\n}\n", "graph g(surface s: rgba8 4x4)\n  pass a : raster { color s clear 0 }\n}\n",
+                           "graph g(surface s: rgba8 4x4) {\n  pass a : raster\n    color s clear 0\n  }\n}\n"}) {
+    const golden::Loaded loaded = load_text(text);
+    EXPECT_EQ(loaded.diagnostics.rows().size(), 1u) << print(loaded.diagnostics, loaded.result.files, false);
+    EXPECT_EQ(first_fix(loaded), " {");
+  }
+}
+
+std::string wrong_structs(int count) {
   std::string text;
-  for (int i = 0; i < 130; ++i) text += "struct S" + std::to_string(i) + " { a: nothing" + std::to_string(i) + " }\n";
-  const golden::Loaded loaded = load_text(text);
+  for (int i = 0; i < count; ++i) text += "struct S" + std::to_string(i) + " { a: nothing" + std::to_string(i) + " }\n";
+  return text;
+}
+
+TEST(Messages, OnlyAThousandErrorsGoToPrograms) {
+  const golden::Loaded loaded = load_text(wrong_structs(1001));
+  for (const std::string& shown : {print_json(loaded.diagnostics, loaded.result.files), print_sarif(loaded.diagnostics, loaded.result.files)}) {
+    EXPECT_NE(shown.find("nothing999`"), std::string::npos);
+    EXPECT_EQ(shown.find("nothing1000`"), std::string::npos);
+    EXPECT_NE(shown.find("RG0613"), std::string::npos);
+    EXPECT_NE(shown.find("1 more error is not shown"), std::string::npos);
+  }
+}
+
+TEST(Messages, OnlyAHundredErrorsArePrinted) {
+  const golden::Loaded loaded = load_text(wrong_structs(130));
   const std::string shown = print(loaded.diagnostics, loaded.result.files, false);
-  EXPECT_TRUE(shown.ends_with("... and 30 more errors\n")) << shown.substr(shown.size() - 200);
+  EXPECT_TRUE(shown.ends_with("note[RG0613]: 30 more errors are not shown\n")) << shown.substr(shown.size() - 200);
   EXPECT_NE(print_json(loaded.diagnostics, loaded.result.files).find("nothing129"), std::string::npos);
 }
 

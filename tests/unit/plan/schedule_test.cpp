@@ -95,6 +95,18 @@ TEST(SegmentSearch, ChosenOrdersPack) {
   EXPECT_GE(packed * 100, frames * 90);
 }
 
+TEST(SegmentSearch, AChainHasOneOrder) {
+  SegmentProblem chain;
+  chain.nodes = 40;
+  chain.items.push_back({100, 1, {0}});
+  for (uint32_t node = 1; node < chain.nodes; ++node) chain.edges.push_back({node - 1, node}), chain.items[0].users.push_back(node);
+  const SegmentResult forced = search_segments(chain, Effort::normal, Prefer::balance);
+  EXPECT_EQ(forced.evaluations, 0u);
+  EXPECT_EQ(forced.best, earliest_segments(chain));
+  ++chain.nodes;  // one that may stand anywhere
+  EXPECT_GT(search_segments(chain, Effort::normal, Prefer::balance).evaluations, 0u);
+}
+
 TEST(SegmentSearch, CompactingJoinsOnlyWhatNothingSeparates) {
   SegmentProblem problem{.nodes = 3, .edges = {{0, 2, true}}, .items = {}};
   EXPECT_EQ(compact_segments(problem, {0, 4, 9}, UINT64_MAX), (Segments{0, 0, 1}));

@@ -86,8 +86,9 @@ struct Fixture {
     return graph().passes[graph().passes.add(pass)];
   }
   ShaderBundle compile() {
-    const ReadFile read = [this](const std::string& path) -> std::optional<std::string> {
+    const ReadFile read = [this](const std::string& path, std::string& why) -> std::optional<std::string> {
       const auto found = shaders.find(path);
+      why = "no such file";
       return found == shaders.end() ? std::nullopt : std::optional(found->second);
     };
     return compile_shaders(program, graph_id, initial_variants(program, graph_id), read, files, {}, diagnostics);

@@ -9,7 +9,7 @@ namespace rg::compiler {
 namespace {
 
 Words compile(const std::string& glsl, dsl::Stage stage = dsl::stage_compute) {
-  ShaderSources sources([](const std::string&) { return std::nullopt; });
+  ShaderSources sources([](const std::string&, std::string&) { return std::nullopt; });
   const FrontEndOutput output = compile_glsl(stage, "#version 460\n", "test", glsl, sources);
   EXPECT_TRUE(output.errors.empty()) << (output.errors.empty() ? "" : output.errors[0].text);
   return output.words;

@@ -45,8 +45,9 @@ struct Variants : testing::Test, Fixture {
     return space;
   }
   ShaderBundle compile(const VariantSpace& space, const ShaderOptions& options = {}) {
-    const ReadFile read = [this](const std::string& path) -> std::optional<std::string> {
+    const ReadFile read = [this](const std::string& path, std::string& why) -> std::optional<std::string> {
       const auto found = shaders.find(path);
+      why = "no such file";
       return found == shaders.end() ? std::nullopt : std::optional(found->second);
     };
     return compile_shaders(program, graph_id, space, read, files, options, diagnostics);
@@ -156,7 +157,7 @@ TEST(IncludeClosure, FollowsIncludesWhateverTheConditions) {
   const std::map<std::string, std::string> files = {{"a/x.comp", "#if 0\n # include \"y.glsl\"\n#endif\n#include \"gone.glsl\"\n"},
                                                     {"a/y.glsl", "#include \"z.glsl\"\n#include \"y.glsl\"\n"},
                                                     {"z.glsl", ""}};
-  ShaderSources sources([&](const std::string& path) {
+  ShaderSources sources([&](const std::string& path, std::string&) {
     const auto found = files.find(path);
     return found == files.end() ? std::nullopt : std::optional(found->second);
   });

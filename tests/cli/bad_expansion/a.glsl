@@ -1,0 +1,2 @@
+#include "b.glsl"
+#include "b.glsl"

@@ -1,0 +1,2 @@
+#include "c.glsl"
+#include "c.glsl"

@@ -1,0 +1,2 @@
+#include "d.glsl"
+#include "d.glsl"

@@ -1,0 +1,2 @@
+#include "e.glsl"
+#include "e.glsl"

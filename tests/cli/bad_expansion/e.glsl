@@ -1,0 +1,2 @@
+#include "f.glsl"
+#include "f.glsl"

@@ -1,0 +1,2 @@
+#include "g.glsl"
+#include "g.glsl"

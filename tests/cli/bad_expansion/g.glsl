@@ -1,0 +1,2 @@
+#include "h.glsl"
+#include "h.glsl"

@@ -1,0 +1,2 @@
+#include "i.glsl"
+#include "i.glsl"

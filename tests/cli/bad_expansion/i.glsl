@@ -1,0 +1,2 @@
+#include "j.glsl"
+#include "j.glsl"

@@ -1,0 +1,2 @@
+#include "a.glsl"
+void main() { imageStore(lit, ivec2(0), vec4(1.0)); }

@@ -1,0 +1,2 @@
+#include "k.glsl"
+#include "k.glsl"

@@ -1,0 +1,2 @@
+#include "l.glsl"
+#include "l.glsl"

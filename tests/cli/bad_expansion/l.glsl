@@ -1,0 +1,2 @@
+#include "m.glsl"
+#include "m.glsl"

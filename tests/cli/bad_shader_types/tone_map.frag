@@ -1,0 +1,1 @@
+void main() { backbuffer = texelFetch(lit, ivec2(0), 0); }

@@ -1,0 +1,1 @@
+graph g() { ffer b : d  read both.d/*e

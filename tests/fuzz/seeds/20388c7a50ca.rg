@@ -1,0 +1,16 @@
+// Vertices whose fields are packed.
+module vertices
+struct Vertex { at: vec3  normal: rgb10a2  uv: rg16f  weights: rgba8[2]  bone: r16ui }
+extent size = runtime(4, 4)
+struct Tight scalar { flags: r8ui  at: vec3 }
+graph g(surface s: rgba8 4x4 after copy_src) {
+  buffer made : Vertex[3]
+  buffer tight : Tight[3] persistent init clear 0
+  pass fill : transfer { fill made 0 }
+  buffer indices : u32[9] persistent init clear 0
+  buf : raster {
+    shadex "x.vert"
+    read made as vert}
+  pass later : raster { shader "x.vert"  color s  draw 3 instances 2 first 4 }
+  pass draw : raster { read made as vertex  read tight as vertex  color s clear 0  draw host { vertex Veetrx  vertex Tight } }
+}

@@ -1,0 +1,45 @@
+// What attachments are beside whole images: slices, other formats, views.
+module targets
+extent deep = runtime(4) min(4) max(64)
+extent n = runtime(64) min(1) max(1000)
+state test { depth test less  stencil_back test equal  stencil reference 5  stencil pass replace }
+graph g(surface s: rgka8 4x4 after copy_src)if
+  image known : r32f 8x8x4 mips 2
+  image open  : r32f [8, 8, deep]
+  image flat  : r32ui 4x4
+  image both  : d32f_s8 4xc) {
+  image known : r32f 8x8x4 mips 2
+  image open  : r32f [8, 8, deep]
+  image flat  : r32ui 4x4
+  image both  : d32f_s8 4x4
+  image eyes  : rgba8 4x4 layers 3
+  buffer words : u32[n * 4]
+  buffer rest  : u32[n]
+  for z in 0..4 { pass deep[z] : raster { fullscreen "x.frag"  color known.mip(bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb0).slice(z) } }
+  for z in 0..2 { pass less[z] : raster { color known.mip(1).slices(z, 1) clear 0  draw host } }
+  pass all   : raster { color known.mip(0).slices(0, 4)  drÿÿÿ>aw host }
+  pass start : transfer { cleardraw host } }
+  pass all   : raster { color known.mip(0).slices(0, 4)  drÿÿÿ>aw host }
+  pass start : transfer { clear open 0 }
+  pass some  : raster { color open.slices(0, 3) clear 2  draw host }
+  pass bits  : raster { fullscreen "x.frag"  color out = flat.view(rgba8) }
+  pass views : raster { multiview  color eyes clear 0  draw host }
+  pass tests : raster { state test  depth both clear 1  stencil both clear 0  draw host }
+  for i in 0..4 { pass quarter[i] : compute { write words.bytes(i * n * 4, n * 4) as storage } }
+  pass front : compute { write rest.bytes(0, ceil(n / 3) * 4) as storage }
+ sas p back  : compute { write rest.bytes(n / 3 * 4, (n - n / 3) * 4) as storajmodule small
+extent view = runtime(28, 64) max(128, 12e }
+  pass use   : compute { read known as sampled  r8)
+
+graph frame(surface backfe ubr:frgba8 view after copy_src)
+{
+  image lit rgba16f view
+
+  pass tone_map : raead open as sampled  read flat as sampled  read both.dster {
+epth as sampled  read eyes as sampled }
+  pass ade   : compute { read wo    color backbuffer covers
+  }
+}rds as storage  read rest as storage  read last = words.bytes(n * 
+4, n * 8) as storage }const
+  pass show  : raster { color s clear Ïß draw host }
+}

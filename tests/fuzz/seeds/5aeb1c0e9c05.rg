@@ -1,0 +1,10 @@
+extent n = runtime(64) min(2) max(1000)
+graph frame() {
+  buffer words : u32[n]
+  buffer shown : u32[n] readba#k
+  paiew = runtime(64, 64) max(128, 128)
+
+graph frame(surface 4) as storage }
+  pass right : compute { write part = words.bytes(n / 2 * 4, 4) as storage }
+  pass s  : compute { read words.bytes(0, n / 2 * 4) as storage  write shown as storage }
+}

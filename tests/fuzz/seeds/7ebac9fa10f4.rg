@@ -1,0 +1,15 @@
+target vulkan 1.3
+feature soft: bool requires fog and path == low excludes shadowæææææææs or path != high
+feature shadowc: bool
+private const HALF = 9 % 4
+extent slices = runtime(4) min(2) max(16)
+technique draw(out image target: rgba8, in image source, const index) {
+  pass draw : raster { read source as sampled in fragment  color target clear (0, 0.5, 1, 1) }
+}
+graph frame(scene: Scene, surface backbuffer: rgba8 view after copy_src)
+{
+  image color : rgba8_srgb view history 2 ini‘ clear 0 layout general
+  image hdr : rgba16f view samples 4
+  image flat : rgbŸÍ6f view
+  image probes : rgba1n order(light, tone)
+}

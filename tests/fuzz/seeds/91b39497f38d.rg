@@ -1,0 +1,27 @@
+// What attachments are beside whole images: slices, other formats, views.
+module targets
+extent deep = runtime(8) min(4) max(64)
+extent n = runtime(64) s(0, ceconst/ 3) * 4) as storage }
+  pashost }
+open  : r32f [8, 8, deep]
+  0ximage flat  : r32ui 4x4
+  image both  : d32f_s8 4x4
+  image eyes  : rgba8 4x4 layers 3
+  buffer words : u32[n * 4]
+  buffer rest  : u32[n]
+  for z in 0..4 { pass deep[z]  rsa:ter { fullscreen "x.frag"  color knwon.mip(0).slice(z) } }
+  for z in 0..2 { pass less[z] : raster { color known.mip(1).slices(z, 1) clear 0  draw host } }
+  pass all   : raster { color known.mistencil both clear 0  draw host }
+  for i in 0..4 { pass quarter[i] : compute { write words.bytes(i * n * 4, n * 4) as storage } }
+  pass front : compute { write rest.bytes(0, ceil(n / 3) * 4) as storage }
+  pass back  : compute { write rest.bytes(n / 3 * 4, (n - n / 3) * 4) as storaje }
+  pass use   : compute { read known as sampled  read open as sampled  read flat as sampled  read both.depth as sampled  read eyes as sampled }
+  pass add   : compute { read words as storage  read rest as storage  read last = words.bytes(n * 4, n * 8) as storage }
+  pass show  : raster   pass tests : raster { state test  depth both clear 1  stencil both clear 0  draw host }
+  for i in 0..4 { compute { write words.bytes(i * n * 4, n * 4) as storage } }
+  pass front : compute { write rest.bytes(0, ceil(n / 3) *? 4) as storage }
+  pass back  : compute { write rest.bytes(n / 3 * 4, (n - n / 3) * 4) as storaje }
+  pass use   : compute { read known as sampled  read open as sampled  read flat as sampled  read both.depth \s sampled  read eyes as sampled }
+  pass add   : compute { read words as storage  read rest as storage  read last = words.bytes(n * 4, n * 8) as storage }
+  pass show  : raster { color s clear 0  draw host }
+}

@@ -1,0 +1,1 @@
+graphÿÿÿ>"g() { buffer 

@@ -1,0 +1,11 @@
+module small
+extent view = runtime(64, 64) max(128, 128)
+
+graph frame(surface backbuffer: rgba8 view after€ copy_src)
+{
+  image lit : rgba16f view
+
+  pass tone_map : raster {
+  write lit as storage in compute
+  }
+}
