@@ -37,17 +37,10 @@ constexpr LimitRow kLimits[] = {{"maxImageDimension1D", 4096},
                                 {"maxFramebufferLayers", 256},
                                 {"maxComputeWorkGroupInvocations", 128},
                                 {"maxSamplerAnisotropy", 16},
+                                {"maxMemoryAllocationSize", 1073741824},
                                 {"framebufferColorSampleCounts", 4},
                                 {"maxVertexInputBindings", 16},
                                 {"maxVertexInputAttributes", 16}};
-
-double limit_of(const dsl::Profile& profile, const char* name) {
-  const auto at =
-      std::lower_bound(profile.limits.begin(), profile.limits.end(), name, [](const auto& row, const char* wanted) { return row.name < wanted; });
-  if (at != profile.limits.end() && at->name == name) return at->value;
-  const auto* row = std::find_if(std::begin(kLimits), std::end(kLimits), [&](const LimitRow& each) { return std::string_view(each.name) == name; });
-  return row == std::end(kLimits) ? 0 : row->least;
-}
 
 struct Judge {
   const dsl::Program& program;
@@ -238,6 +231,14 @@ void judge_version(Judge& at) {
 }
 
 }  // namespace
+
+double limit_of(const dsl::Profile& profile, const char* name) {
+  const auto at =
+      std::lower_bound(profile.limits.begin(), profile.limits.end(), name, [](const auto& row, const char* wanted) { return row.name < wanted; });
+  if (at != profile.limits.end() && at->name == name) return at->value;
+  const auto* row = std::find_if(std::begin(kLimits), std::end(kLimits), [&](const LimitRow& each) { return std::string_view(each.name) == name; });
+  return row == std::end(kLimits) ? 0 : row->least;
+}
 
 void judge_profiles(const dsl::Program& program, dsl::GraphId graph, dsl::Diagnostics& diagnostics) {
   if (program.profiles.empty()) return;
