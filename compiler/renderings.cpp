@@ -55,10 +55,11 @@ bool resolves(const dsl::Pass& pass) {
 
 class Finder {
  public:
-  Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options)
+  Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options, const std::vector<uint32_t>& apart)
       : frame_(frame),
         options_(options),
         live_(live),
+        apart_(apart),
         before_(frame.passes.size()),
         result_(separate_renderings(frame)),
         members_(frame.passes.size()),
@@ -101,6 +102,7 @@ class Finder {
   std::string obstacle_to(uint32_t leader, uint32_t pass) {
     const dsl::Pass &first = frame_.pass(leader), &row = frame_.pass(pass);
     const uint32_t last = members_[leader].back();
+    if (std::binary_search(apart_.begin(), apart_.end(), pass)) return "apart the frame needs less memory, which is worth the barriers; `--prefer barriers` weighs otherwise";
     for (const uint32_t one : {last, pass})
       if (options_.no_merge.contains(frame_.pass(one).name)) return fmt::format("`--no-merge={}`", name(one));
     if (const std::string fixed = fixed_between(leader, pass); !fixed.empty()) return fixed;
@@ -283,6 +285,7 @@ class Finder {
   const Frame& frame_;
   const PlanOptions& options_;
   const std::vector<bool>& live_;
+  const std::vector<uint32_t>& apart_;  // passes that continue nothing
   std::vector<std::vector<const Dependency*>> before_;  // by pass
   Renderings result_;
   std::vector<std::vector<uint32_t>> members_;  // by leader, ascending
@@ -301,9 +304,10 @@ Renderings separate_renderings(const Frame& frame) {
   return result;
 }
 
-Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options) {
+Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options,
+                           const std::vector<uint32_t>& apart) {
   if (!options.merge) return separate_renderings(frame);
-  return Finder(frame, graph, live, options).run(graph);
+  return Finder(frame, graph, live, options, apart).run(graph);
 }
 
 }  // namespace rg::compiler
