@@ -209,6 +209,33 @@ Queues use_queues(const Frame& frame, const Graph& graph, const Schedule& one_qu
   return queues;
 }
 
+// What the plan is, and where its memory lies.
+struct Placed {
+  PlanData plan;
+  MemoryPlan memory;
+};
+Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
+  Placed placed{watch.time("emit_plan", [&] { return emit_plan(parts); }), {}};
+  placed.memory = watch.time("plan_memory", [&] {
+    find_alias_clocks(placed.plan, parts.sync.over_at);
+    return place_transients(placed.plan, parts.options.effort);
+  });
+  return placed;
+}
+
+// On several queues: signals that name more stages, where memory can change hands for it and takes less.
+void signal_for_memory(const std::vector<Line>& lines, const PlanParts& parts, SyncPlan& sync, Placed& placed) {
+  constexpr double kWorthwhile = 0.99;
+  if (placed.plan.queues.size() == 1 || !parts.options.aliasing) return;
+  const std::vector<Stages> silent = silent_stages(placed.plan);
+  if (silent.empty()) return;
+  SyncPlan other_sync = synchronise(parts.frame, parts.schedule, lines, parts.options, silent);
+  Stopwatch within;
+  Placed other = emit_and_place({parts.frame, parts.liveness, parts.schedule, parts.contents, other_sync, parts.options}, within);
+  if (static_cast<double>(other.memory.heap_bytes) > kWorthwhile * static_cast<double>(placed.memory.heap_bytes)) return;
+  sync = std::move(other_sync), placed = std::move(other);
+}
+
 }  // namespace
 
 PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
@@ -248,19 +275,18 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   const std::vector<Line> lines = watch.time("find_epochs", [&] { return find_epochs(arranged.frame, schedule); });
 
   // Barriers do not depend on the placement: what it adds is patched in by runtime/alias.h.
-  const SyncPlan sync = watch.time("synchronise", [&] { return synchronise(arranged.frame, schedule, lines, options); });
+  SyncPlan sync = watch.time("synchronise", [&] { return synchronise(arranged.frame, schedule, lines, options); });
 
   FramePlan result;
   result.configuration = configuration;
   const ContentsOfUses contents = find_contents(arranged.frame, lines);
   const PlanParts parts{arranged.frame, liveness, schedule, contents, sync, options};
-  result.plan = watch.time("emit_plan", [&] { return emit_plan(parts); });
 
   // Memory, estimated; the runtime places again with real sizes, within what the clocks allow.
-  const MemoryPlan memory = watch.time("plan_memory", [&] {
-    find_alias_clocks(result.plan);
-    return place_transients(result.plan, options.effort);
-  });
+  Placed placed = emit_and_place(parts, watch);
+  watch.time("signal_for_memory", [&] { return signal_for_memory(lines, parts, sync, placed), 0; });
+  result.plan = std::move(placed.plan);
+  const MemoryPlan memory = placed.memory;
 
   result.decisions = watch.time("explain", [&] { return options.reasons ? explain_plan(parts, arranged.graph, result.plan) : Decisions(); });
   result.overlap = queues.overlap, result.unproved = sync.unproved;
