@@ -81,7 +81,7 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   schedule.queue_of.assign(cost.segments, 0), schedule.batch_of.assign(cost.segments, 0);
   schedule.peak_bytes = cost.peak;
   schedule.frontier = found.frontier, schedule.evaluations = found.evaluations, schedule.method = found.method, schedule.score = found.score;
-  schedule.crowded = crowded_passes(all, segments, cost);
+  if (options.effort != Effort::fast) schedule.crowded = crowded_passes(all, segments, cost);  // who searches asks
   schedule.chosen_because = std::to_string(cost.segments) + " groups and " + std::to_string(cost.peak) + " bytes; program order has " +
                             std::to_string(before.segments) + " groups and " + std::to_string(before.peak) + " bytes";
   return schedule;
