@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kThreshold = 0.005;  // of the frame's serial time: less is not worth a second queue
 // Nodes simulated in all.
-uint64_t effort_for(size_t nodes) { return std::max<uint64_t>(1'000'000, 500 * nodes); }
+uint64_t effort_for(size_t nodes, Effort effort) { return std::max<uint64_t>(1'000'000, 500 * nodes) / (effort == Effort::fast ? 20 : 1); }
 constexpr double kEnough = 0.95, kWorthwhile = 0.01;  // of what overlap can gain: look no further; take another order
 
 std::string_view kind_name(dsl::QueueKind kind) {
@@ -211,7 +211,7 @@ class Assigner {
   // The order for one queue may leave queues idle, because what they wait for comes late in it. Then others are tried that hurry what movable passes
   // need and put off what needs them, less before more: lives grow longer with the distance.
   QueueChoice choose_order() {
-    const uint64_t effort = effort_for(problem_.nodes.size());
+    const uint64_t effort = effort_for(problem_.nodes.size(), options_.effort);
     QueueChoice best = choose_queues(problem_, kThreshold * total(), effort / 4);
     const double possible = best.gain.serial - best.gain.bound;
     std::vector<uint32_t> rank;
