@@ -283,7 +283,8 @@ TEST(Synchronise, PartsThatAreApartKeepABarrierEach) {
 }
 
 TEST(Synchronise, PartsWrittenInBetweenAreNotGathered) {
-  const FramePlan frame = thirds_of("read whole.bytes(256, 256) as storage", "pass again : compute { read first as storage  update whole.bytes(256, 256) as storage }\n");
+  const FramePlan frame =
+      thirds_of("read whole.bytes(256, 256) as storage", "pass again : compute { read first as storage  update whole.bytes(256, 256) as storage }\n");
   EXPECT_EQ(reads_of_whole(frame).size(), 4u);  // 0 to 256, 512 to the end, the middle for `again`, and once more for its reader
   EXPECT_EQ(frame.unproved, 0u);
 }
