@@ -48,7 +48,7 @@ class Knowledge {
 
 class Finder {
  public:
-  explicit Finder(PlanData& plan) : plan_(plan), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_) {
+  Finder(PlanData& plan, const OverAt& over_at) : plan_(plan), over_at_(over_at), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_) {
     for (size_t b = 0; b < plan.batches.size(); ++b)
       if (plan.batches[b].signal_count > 0) batch_of_[plan.batches[b].queue].push_back(b);
   }
@@ -135,10 +135,16 @@ class Finder {
       for (; next > 0 && releases[next - 1]->point >= begin; --next) {
         const Release& release = *releases[next - 1];
         if (release.point > end_of_batch_[b]) continue;
+        if (is_over_at(release, b)) continue;
         if ((release.stages & ~(release.accesses ? stages : with_earlier(stages))) != 0) point = release.point - 1;  // a group stands before any user
       }
     }
     return point;
+  }
+
+  bool is_over_at(const Release& release, size_t b) const {
+    const auto found = over_at_.find({plan_.program_resource[release.resource], release.queue});
+    return found != over_at_.end() && found->second <= b;
   }
 
   void note(Acquire& acquire, const Knowledge& known) {
@@ -150,6 +156,7 @@ class Finder {
   }
 
   PlanData& plan_;
+  const OverAt& over_at_;
   size_t queues_;
   std::vector<std::vector<const Release*>> releases_;  // by queue, by point
   std::vector<Index> end_of_batch_, last_point_;       // point by batch, by queue
@@ -157,11 +164,58 @@ class Finder {
   std::vector<Clock> signalled_;                       // by batch: what has completed when its signal has
 };
 
+// Of releases on the batch's queue since the signal before.
+Stages unnamed_stages(const PlanData& plan, size_t of) {
+  const uint32_t queue = plan.batches[of].queue;
+  const Stages named = plan.signals[plan.batches[of].first_signal].stages;
+  if (named & stage::all_commands) return 0;
+  Index point = 0, since = 0, end = 0;  // points passed so far; the first since the signal before; that of the end of the batch
+  for (size_t b = 0; b <= of; ++b) {
+    const Batch& batch = plan.batches[b];
+    if (batch.queue != queue) continue;
+    for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s) point += plan.steps[s].kind == StepKind::barriers;
+    end = point++;
+    if (batch.signal_count > 0 && b < of) since = point;
+  }
+  Stages stages = 0;
+  for (const Release& release : plan.releases)
+    if (release.queue == queue && release.point >= since && release.point <= end)
+      stages |= release.accesses ? release.stages & ~named : latest_stages(release.stages & ~with_earlier(named));
+  return stages;
+}
+
 }  // namespace
 
-void find_alias_clocks(PlanData& plan) {
+void find_alias_clocks(PlanData& plan, const OverAt& over_at) {
   plan.alias_clocks.clear();
-  Finder(plan).run();
+  Finder(plan, over_at).run();
+}
+
+std::vector<Stages> silent_stages(const PlanData& made) {
+  constexpr size_t kMostWork = 1'000'000;  // about a second; signals of larger plans stay as they are
+  if (made.signals.size() * made.steps.size() > kMostWork) return {};
+  PlanData plan = made;
+  std::vector<Stages> silent(plan.batches.size());
+  for (size_t b = 0; b < plan.batches.size(); ++b)
+    if (plan.batches[b].signal_count > 0) plan.signals[plan.batches[b].first_signal].stages |= silent[b] = unnamed_stages(plan, b);
+  find_alias_clocks(plan);
+  if (plan.alias_clocks == made.alias_clocks) return {};
+  // What no clock rests on goes again.
+  const std::vector<Index> most = plan.alias_clocks;
+  const auto drop = [&](size_t b, Stages stages) {
+    Stages& signal = plan.signals[plan.batches[b].first_signal].stages;
+    signal &= ~stages;
+    find_alias_clocks(plan);
+    const bool same = plan.alias_clocks == most;
+    if (!same) signal |= stages;
+    return same;
+  };
+  for (size_t b = 0; b < silent.size(); ++b) {
+    if (silent[b] != 0 && drop(b, silent[b])) silent[b] = 0;
+    for (Stages rest = silent[b]; rest; rest &= rest - 1)
+      if (const Stages one = rest & ~(rest - 1); silent[b] != one && drop(b, one)) silent[b] &= ~one;
+  }
+  return silent;
 }
 
 }  // namespace rg::compiler

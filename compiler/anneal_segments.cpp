@@ -226,7 +226,7 @@ class Annealer {
 
   double apply() {
     ++mark_;
-    touched_.clear(), changed_.clear();
+    touched_.clear(), changes_ = 0;
     double change = 0;
     for (const auto& [node, from] : moved_)
       for (const uint32_t item : items_of_.of(node)) {
@@ -242,13 +242,13 @@ class Annealer {
   void undo() {
     undo_segments();
     for (const Touched& touched : touched_) intervals_[touched.item] = touched.was;
-    for (size_t i = changed_.size(); i-- > 0;) live_[changed_[i].segment] = changed_[i].live, energy_[changed_[i].segment] = changed_[i].energy;
+    for (size_t i = changes_; i-- > 0;) live_[changed_[i].segment] = changed_[i].live, energy_[changed_[i].segment] = changed_[i].energy;
   }
 
   double add(uint32_t begin, uint32_t end, double weight) {  // half-open
-    const size_t first = changed_.size();
-    changed_.resize(first + (end - begin));
-    Changed* log = changed_.data() + first;
+    if (changed_.size() < changes_ + (end - begin)) changed_.resize(2 * (changes_ + (end - begin)));  // never cleared: most moves log a few rows
+    Changed* log = changed_.data() + changes_;
+    changes_ += end - begin;
     double *live = live_.data(), *energies = energy_.data(), change = 0;
     for (uint32_t s = begin; s < end; ++s, ++log) {
       const double was = energies[s], now = energy(live[s] + weight);
@@ -301,6 +301,7 @@ class Annealer {
   std::vector<Moved> moved_;
   std::vector<Touched> touched_;
   std::vector<Changed> changed_;
+  size_t changes_ = 0;  // rows of `changed_` that count
   std::vector<uint32_t> hot_, full_before_;
   uint64_t mark_ = 0;
   double inverse_ = 1, heat_ = 0, best_peak_ = 0, target_ = 0;

@@ -6,6 +6,7 @@
 #include <map>
 #include <functional>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <set>
 
@@ -15,7 +16,8 @@ namespace rg::compiler {
 namespace {
 
 constexpr double kThreshold = 0.005;  // of the frame's serial time: less is not worth a second queue
-constexpr uint64_t kEffort = 5'000'000;
+// Nodes simulated in all.
+uint64_t effort_for(size_t nodes, Effort effort) { return std::max<uint64_t>(1'000'000, 500 * nodes) / (effort == Effort::fast ? 20 : 1); }
 constexpr double kEnough = 0.95, kWorthwhile = 0.01;  // of what overlap can gain: look no further; take another order
 
 std::string_view kind_name(dsl::QueueKind kind) {
@@ -209,14 +211,15 @@ class Assigner {
   // The order for one queue may leave queues idle, because what they wait for comes late in it. Then others are tried that hurry what movable passes
   // need and put off what needs them, less before more: lives grow longer with the distance.
   QueueChoice choose_order() {
-    QueueChoice best = choose_queues(problem_, kThreshold * total(), kEffort);
+    const uint64_t effort = effort_for(problem_.nodes.size(), options_.effort);
+    QueueChoice best = choose_queues(problem_, kThreshold * total(), effort / 4);
     const double possible = best.gain.serial - best.gain.bound;
     std::vector<uint32_t> rank;
     for (const uint32_t distance : {2u, 4u, 8u, 16u, 32u}) {
       const uint64_t spent = best.simulations * problem_.nodes.size();
-      if (!may_reorder() || spent >= kEffort || distance > problem_.window || best.gain.serial - best.gain.end >= kEnough * possible) break;
+      if (!may_reorder() || spent >= effort || distance > problem_.window || best.gain.serial - best.gain.end >= kEnough * possible) break;
       problem_.rank = urgent_order(distance);
-      QueueChoice choice = choose_queues(problem_, kThreshold * total(), kEffort - spent);
+      QueueChoice choice = choose_queues(problem_, kThreshold * total(), std::min(effort / 4, effort - spent));
       best.simulations = choice.simulations += best.simulations;
       if (best.gain.end - choice.gain.end < kWorthwhile * possible) continue;
       best = std::move(choice), rank = problem_.rank;
@@ -260,13 +263,17 @@ class Assigner {
   }
 
   void find_homes() {
-    const Eligibility eligibility(frame_, one_queue_, options_);
+    std::optional<Eligibility> eligibility;  // of those that have a queue to go to
+    const auto why_not = [&](uint32_t pass) {
+      if (!eligibility) eligibility.emplace(frame_, one_queue_, options_);
+      return eligibility->why_not(pass);
+    };
     for (uint32_t node = 0; node < problem_.nodes.size(); ++node) {
       const dsl::Pass& pass = frame_.pass(one_queue_.order[node]);
       if (pass.queue == dsl::QueueKind::graphics) continue;
       const uint32_t queue = queue_of_kind(options_, pass.queue);
       std::string why =
-          queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : eligibility.why_not(one_queue_.order[node]);
+          queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : why_not(one_queue_.order[node]);
       if (why.empty() && pass.queue_may) problem_.nodes[node].away = queue;
       if (why.empty() && !pass.queue_may) problem_.nodes[node].home = queue;
       if (!why.empty()) plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});

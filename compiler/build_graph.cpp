@@ -34,7 +34,8 @@ class Builder {
   }
 
   void finish() {
-    for (const Version& version : versions_) graph_.last_writers.push_back(version.writers);
+    graph_.last_writers.reserve(versions_.size());
+    for (Version& version : versions_) graph_.last_writers.push_back(std::move(version.writers));
   }
 
  private:

@@ -199,7 +199,10 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   for (const CompiledGraph& graph : result.graphs) result.program = resolve_stages(std::move(result.program), graph.graph, graph.shaders);
 
   // What the graphs ask of devices, beside what the target profiles promise.
-  for (const CompiledGraph& graph : result.graphs) judge_profiles(result.program, graph.graph, graph.shaders, diagnostics);
+  for (const CompiledGraph& graph : result.graphs) {
+    judge_profiles(result.program, graph.graph, graph.shaders, diagnostics);
+    judge_memory(result.program, graph.graph, diagnostics);
+  }
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
   // What switches name, and queues that passes insist on.

@@ -45,6 +45,7 @@ class Dropper {
       while (wait_earlier(s)) continue;
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::signal && !order_.scopes[s].everything) drop(s, {s, AtomField::whole, 0});
+    rest_on_memory();
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::barrier) order_.scopes[s].changes ? drop_discard(s) : drop(s, {s, AtomField::whole, 0});
     for (uint32_t s = 0; s < order_.scopes.size(); ++s) drop_bits(s);
@@ -76,6 +77,34 @@ class Dropper {
       (of.last == UINT32_MAX ? of.first : watches_[of.last].next) = watch;
       of.last = watch;
     }
+  }
+
+  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done to transients since the signal before. No wait is kept
+  // for that, so waits are settled by now.
+  void rest_on_memory() {
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> uses;  // by resource and queue
+    for (const uint32_t use : last_uses_) uses[{frame_.cells[order_.sources[use].cell].resource, order_.sources[use].queue}].push_back(use);
+    for (const auto& [of, list] : uses) {
+      uint32_t last = 0;
+      for (const uint32_t use : list) last = std::max(last, order_.sources[use].after);
+      const auto& signals = signals_on_[of.second];
+      const auto at = std::find_if(signals.begin(), signals.end(), [&](uint32_t s) { return !order_.scopes[s].gone && order_.scopes[s].point >= last; });
+      if (at == signals.end() || sync_.batches[order_.scopes[*at].slot].for_memory == 0) continue;
+      if (rest_on_signal(list, order_.scopes[*at])) sync_.over_at[of] = order_.scopes[*at].slot;
+    }
+  }
+  bool rest_on_signal(const std::vector<uint32_t>& uses, const SyncScope& signal) {
+    std::vector<SyncFact> facts;
+    for (const SyncScope& wait : order_.scopes)
+      if (wait.kind == SyncKind::wait && !wait.gone && wait.from_queue == signal.queue && wait.number == signal.number)
+        for (const uint32_t use : uses) facts.push_back({SyncFact::Kind::follows, use, wait.point + 1, wait.queue, wait.dst, 0, 0, UINT32_MAX});
+    if (facts.empty() || !std::all_of(facts.begin(), facts.end(), [&](const SyncFact& fact) { return order_.derive(fact, found_); })) return false;
+    for (const SyncFact& fact : facts) {
+      order_.derive(fact, found_);
+      facts_.push_back(fact), rests_on_.emplace_back();
+      rest(static_cast<uint32_t>(facts_.size()) - 1, found_);
+    }
+    return true;
   }
 
   // True if what `change` does to the scope leaves all facts standing; otherwise nothing has changed.

@@ -2,6 +2,7 @@
 
 #include "compiler/emit_plan.h"
 #include "compiler/format_table.h"
+#include "dsl/check_macro.h"
 
 namespace rg::compiler {
 namespace {
@@ -60,6 +61,14 @@ std::vector<const dsl::Access*> attachments_of(const dsl::Pass& pass) {
   return found;
 }
 
+const dsl::Access& attachment_of(const dsl::Pass& pass, size_t number) {
+  for (const bool color : {true, false})
+    for (const dsl::Access& access : pass.accesses)
+      if (is_attachment(access.role) && (access.role == Role::color) == color && number-- == 0) return access;
+  RG_CHECK(false, "passes of one rendering have the same attachments");
+  return pass.accesses.front();
+}
+
 // Of a volume whose depth is known, where none are named.
 uint32_t slices_of(const PlanParts& parts, const dsl::Resource& volume, const dsl::Access& access) {
   if (is_slice(access)) return access.range.slices;
@@ -70,14 +79,14 @@ uint32_t slices_of(const PlanParts& parts, const dsl::Resource& volume, const ds
 // The first pass says what is loaded, the last what is wanted.
 Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, const Members& members, size_t number) {
   const dsl::Pass& pass = parts.frame.pass(members.front());
-  const dsl::Access& access = *attachments_of(pass)[number];
+  const dsl::Access& access = attachment_of(pass, number);
   const dsl::Resource& resource = parts.frame.graph->resources[access.resource];
   const Found found = find_uses(parts, members.front(), access);
   const Range range = resolved_range(resource, access);
   bool writes = false;
   for (const uint32_t member : members) {
     const dsl::Pass& other = parts.frame.pass(member);
-    writes = writes || effect_of(other, *attachments_of(other)[number], range.aspects).writes != 0;
+    writes = writes || effect_of(other, attachment_of(other, number), range.aspects).writes != 0;
   }
   Attachment row;
   row.ref = plan_ref(indices, access.resource, access.age);
@@ -87,7 +96,7 @@ Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, co
   row.layout = found.layout;
   const bool discards = may_discard(parts.options, resource);
   row.load = load_op(pass, access, found, discards);
-  row.store = store_op(writes, find_uses(parts, members.back(), *attachments_of(parts.frame.pass(members.back()))[number]), discards);
+  row.store = store_op(writes, find_uses(parts, members.back(), attachment_of(parts.frame.pass(members.back()), number)), discards);
   if (access.clear) row.clear = plan_clear(*access.clear, range.aspects);
   return row;
 }

@@ -1,6 +1,8 @@
 #include "compiler/epochs.h"
 
 #include <algorithm>
+#include <numeric>
+#include <span>
 
 #include "dsl/check_macro.h"
 
@@ -25,7 +27,7 @@ struct Common {
   Use use;
   std::vector<const Use*> uses;
 };
-Common common_use(std::vector<const Use*>::const_iterator first, std::vector<const Use*>::const_iterator last) {
+Common common_use(std::span<const Use* const>::iterator first, std::span<const Use* const>::iterator last) {
   Common common{**first, {first, last}};
   for (++first; first != last; ++first) {
     Effect effect = (*first)->effect;
@@ -59,7 +61,7 @@ void add(std::vector<Epoch>& epochs, uint32_t age, const Common& common, const S
   }
 }
 
-void add_rows(std::vector<Epoch>& epochs, uint32_t age, const std::vector<const Use*>& uses, const Schedule& schedule) {
+void add_rows(std::vector<Epoch>& epochs, uint32_t age, std::span<const Use* const> uses, const Schedule& schedule) {
   for (auto first = uses.begin(); first != uses.end();) {
     auto last = first + 1;
     while (last != uses.end() && schedule.leader_of[(*last)->pass] == schedule.leader_of[(*first)->pass]) ++last;
@@ -67,6 +69,25 @@ void add_rows(std::vector<Epoch>& epochs, uint32_t age, const std::vector<const 
     first = last;
   }
 }
+
+// In the order of the schedule, cell after cell.
+class UsesOfCells {
+ public:
+  UsesOfCells(const Frame& frame, const Schedule& schedule) : first_(frame.cells.size() + 1) {
+    for (const uint32_t pass : schedule.order)
+      for (const Use& use : frame.uses_of(pass)) ++first_[use.cell + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+    uses_.resize(first_.back());
+    for (const uint32_t pass : schedule.order)
+      for (const Use& use : frame.uses_of(pass)) uses_[next[use.cell]++] = &use;
+  }
+  std::span<const Use* const> of(uint32_t cell) const { return {uses_.data() + first_[cell], first_[cell + 1] - first_[cell]}; }
+
+ private:
+  std::vector<uint32_t> first_;
+  std::vector<const Use*> uses_;
+};
 
 bool crosses_frames(dsl::Lifetime lifetime) { return lifetime == dsl::Lifetime::history || lifetime == dsl::Lifetime::persistent; }
 
@@ -94,15 +115,13 @@ bool continues(const Epoch& earlier, const Epoch& later) {
 }
 
 std::vector<Line> find_epochs(const Frame& frame, const Schedule& schedule) {
-  std::vector<std::vector<const Use*>> by_cell(frame.cells.size());
-  for (const uint32_t pass : schedule.order)
-    for (const Use& use : frame.uses_of(pass)) by_cell[use.cell].push_back(&use);
+  const UsesOfCells uses(frame, schedule);
   std::vector<Line> lines;
   for (uint32_t cell = 0; cell < frame.cells.size(); ++cell) {
     if (frame.cells[cell].age != 0) continue;
     const Grid& grid = frame.grids[frame.cells[cell].resource];
     Line line{cell, {}};
-    for (uint32_t age = 0; age < grid.ages; ++age) add_rows(line.epochs, age, by_cell[cell + age * grid.cells_per_age()], schedule);
+    for (uint32_t age = 0; age < grid.ages; ++age) add_rows(line.epochs, age, uses.of(cell + age * grid.cells_per_age()), schedule);
     if (line.epochs.empty()) continue;
     for (Epoch& epoch : line.epochs) epoch.covered = epoch.effect;
     if (crosses_frames(frame.resource_of(cell).lifetime)) cover_continued_reads(line);

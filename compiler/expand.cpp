@@ -87,8 +87,8 @@ void cut_grids(Frame& frame) {
       return;
     }
     const Range range = resolved_range(resource, access);
-    grid.mips.insert(grid.mips.end(), {range.mip, range.mip + range.mips});
-    grid.layers.insert(grid.layers.end(), {range.layer, range.layer + range.layers});
+    if (range.mip > 0 || range.mips < resource.mips) grid.mips.insert(grid.mips.end(), {range.mip, range.mip + range.mips});
+    if (range.layer > 0 || range.layers < resource.layers) grid.layers.insert(grid.layers.end(), {range.layer, range.layer + range.layers});
   });
   for (uint32_t r = 0; r < resources.size(); ++r) {
     Grid& grid = frame.grids[r];
@@ -164,8 +164,6 @@ void add_uses(Frame& frame, uint32_t pass) {
   frame.uses.resize(kept);
 }
 
-uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
-
 uint64_t image_bytes(const dsl::Resource& resource, std::span<const Expr> exprs, std::span<const int64_t> extents) {
   const FormatRow& format = format_row(resource.format);
   const auto size = [&](dsl::ExprId id) { return std::max<int64_t>(1, evaluate(exprs, index_of(id), extents)); };
@@ -181,20 +179,23 @@ uint64_t image_bytes(const dsl::Resource& resource, std::span<const Expr> exprs,
   return texels * format.block_bytes * resource.layers * resource.samples;
 }
 
+uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
+
 void estimate_sizes(Frame& frame, const PlanOptions& options) {
   const std::vector<Expr> exprs = convert_expressions(*frame.program);
   const std::vector<int64_t> extents = initial_values(*frame.program);
   for (const dsl::Resource& resource : frame.graph->resources) {
-    if (resource.kind == dsl::ResourceKind::image)
-      frame.bytes.push_back(align_up(image_bytes(resource, exprs, extents), options.image_alignment));
-    else
-      frame.bytes.push_back(
-          align_up(static_cast<uint64_t>(std::max<int64_t>(1, evaluate(exprs, index_of(resource.count), extents))) * resource.stride,
-                   options.buffer_alignment));
+    const uint64_t alignment = resource.kind == dsl::ResourceKind::image ? options.image_alignment : options.buffer_alignment;
+    frame.bytes.push_back(align_up(bytes_of(resource, exprs, extents), alignment));
   }
 }
 
 }  // namespace
+
+uint64_t bytes_of(const dsl::Resource& resource, std::span<const Expr> exprs, std::span<const int64_t> extents) {
+  if (resource.kind == dsl::ResourceKind::image) return image_bytes(resource, exprs, extents);
+  return static_cast<uint64_t>(std::max<int64_t>(1, evaluate(exprs, index_of(resource.count), extents))) * resource.stride;
+}
 
 uint32_t Grid::cells_per_age() const {
   const size_t image = aspects.size() * (mips.size() - 1) * (layers.size() - 1);

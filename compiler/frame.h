@@ -86,6 +86,9 @@ std::vector<uint32_t> cells_of(const Frame& frame, const dsl::Access& access);
 // Aspects of the access, mips and layers within the image, defaults filled in.
 Range resolved_range(const dsl::Resource& resource, const dsl::Access& access);
 
+// Of one copy, packed tightly, with mips, layers and samples. Buffers of unknown length count as one element.
+uint64_t bytes_of(const dsl::Resource& resource, std::span<const Expr> exprs, std::span<const int64_t> extents);
+
 // True if the pass may be skipped in a frame while the cell exists.
 bool may_skip(const Frame& frame, uint32_t pass, const Cell& cell);
 

@@ -38,6 +38,7 @@ constexpr LimitRow kLimits[] = {{"maxImageDimension1D", 4096},
                                 {"maxComputeWorkGroupInvocations", 128},
                                 {"maxComputeSharedMemorySize", 16384},
                                 {"maxSamplerAnisotropy", 16},
+                                {"maxMemoryAllocationSize", 1073741824},
                                 {"framebufferColorSampleCounts", 4},
                                 {"maxVertexInputBindings", 16},
                                 {"maxVertexInputAttributes", 16}};
@@ -45,12 +46,6 @@ constexpr LimitRow kLimits[] = {{"maxImageDimension1D", 4096},
 double least_of(std::string_view name) {
   const auto* row = std::find_if(std::begin(kLimits), std::end(kLimits), [&](const LimitRow& each) { return each.name == name; });
   return row == std::end(kLimits) ? 0 : row->least;
-}
-
-double limit_of(const dsl::Profile& profile, const char* name) {
-  const auto at =
-      std::lower_bound(profile.limits.begin(), profile.limits.end(), name, [](const auto& row, const char* wanted) { return row.name < wanted; });
-  return at != profile.limits.end() && at->name == name ? at->value : least_of(name);
 }
 
 struct Judge {
@@ -265,6 +260,12 @@ void judge_version(Judge& at) {
 }
 
 }  // namespace
+
+double limit_of(const dsl::Profile& profile, const char* name) {
+  const auto at =
+      std::lower_bound(profile.limits.begin(), profile.limits.end(), name, [](const auto& row, const char* wanted) { return row.name < wanted; });
+  return at != profile.limits.end() && at->name == name ? at->value : least_of(name);
+}
 
 void judge_profiles(const dsl::Program& program, dsl::GraphId graph, const ShaderBundle& shaders, dsl::Diagnostics& diagnostics) {
   Judge at{program, program.graphs[graph], dsl::maximum_extents(program), diagnostics, {}};

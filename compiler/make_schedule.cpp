@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "compiler/schedule_problem.h"
+#include "compiler/segment_graph.h"
 
 namespace rg::compiler {
 namespace {
@@ -26,6 +27,30 @@ void part(uint32_t node, Segments& segments) {
     segments[other] = static_cast<uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), keys[other]) - sorted.begin());
 }
 
+// Passes that continue a rendering, of those which hold something in a segment where the most is live: what they hold apart might not meet.
+std::vector<uint32_t> crowded_passes(const ScheduleProblem& problem, const Segments& segments, const SegmentCost& cost) {
+  std::vector<uint64_t> begins(cost.segments + 1), ends(cost.segments + 1);
+  for (const auto& item : problem.segments.items) {
+    const SegmentInterval interval = interval_of(item, segments);
+    begins[interval.begin] += item.bytes, ends[interval.end + 1] += item.bytes;
+  }
+  std::vector<uint32_t> full(cost.segments + 1);  // segments where the most is live, so far
+  uint64_t live = 0;
+  for (uint32_t s = 0; s < cost.segments; ++s) {
+    live += begins[s] - ends[s];
+    full[s + 1] = full[s] + (live == cost.peak);
+  }
+  std::vector<uint32_t> passes;
+  for (const auto& item : problem.segments.items) {
+    const SegmentInterval interval = interval_of(item, segments);
+    if (full[interval.end + 1] == full[interval.begin]) continue;
+    for (const uint32_t node : item.users) passes.insert(passes.end(), problem.passes[node].begin() + 1, problem.passes[node].end());
+  }
+  std::sort(passes.begin(), passes.end());
+  passes.erase(std::unique(passes.begin(), passes.end()), passes.end());
+  return passes;
+}
+
 }  // namespace
 
 Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const Renderings& renderings,
@@ -33,7 +58,7 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   const ScheduleProblem all = make_problem(frame, graph, live, renderings.leader_of, options);
   const SegmentProblem& problem = all.segments;
   const Segments program_order = program_order_segments(problem);
-  SegmentResult found{program_order, {}, 0, "program order"};
+  SegmentResult found{program_order, {}, 0, "program order", 0};
   if (!options.merge)
     found.best = one_each(problem.nodes);
   else if (options.reorder && options.prefer != Prefer::order)
@@ -55,7 +80,8 @@ Schedule make_schedule(const Frame& frame, const Graph& graph, const std::vector
   schedule.segments = cost.segments;
   schedule.queue_of.assign(cost.segments, 0), schedule.batch_of.assign(cost.segments, 0);
   schedule.peak_bytes = cost.peak;
-  schedule.frontier = found.frontier, schedule.evaluations = found.evaluations, schedule.method = found.method;
+  schedule.frontier = found.frontier, schedule.evaluations = found.evaluations, schedule.method = found.method, schedule.score = found.score;
+  if (options.effort != Effort::fast) schedule.crowded = crowded_passes(all, segments, cost);  // who searches asks
   schedule.chosen_because = std::to_string(cost.segments) + " groups and " + std::to_string(cost.peak) + " bytes; program order has " +
                             std::to_string(before.segments) + " groups and " + std::to_string(before.peak) + " bytes";
   return schedule;

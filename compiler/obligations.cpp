@@ -31,6 +31,7 @@ struct Pending {
   const Epoch* epoch = nullptr;
   bool read_since = false;            // of a write: by a pass that always runs
   uint32_t read_in = UINT32_MAX;      // by one of this segment, at first
+  const Epoch* read_by = nullptr;     // and of this run of uses that commute
   bool carried = false;               // a write of an earlier frame that rows say no more of
   std::vector<Visible> visible = {};  // of a write, from the start
 };
@@ -56,7 +57,7 @@ class CellWalk {
   // `unread`: the readers that the rows name may all have been skipped.
   void enter(Rows rows, bool signalled, bool unread) {
     Pending settled{
-        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, UINT32_MAX, unread, {}};
+        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, UINT32_MAX, nullptr, unread, {}};
     if (!rows.empty()) layout_ = rows.front().row.layout, owner_ = rows.front().row.discard ? kNone : rows.front().row.queue;
     bool writes = false, any = false;
     for (const auto& [cell, row] : rows) {
@@ -143,10 +144,12 @@ class CellWalk {
     return static_cast<uint32_t>(order_.sources.size()) - 1;
   }
   Pending& add_read(CellState& state, uint32_t queue, Stages stage, uint32_t after, bool signalled) {
+    if (state.reads.capacity() == 0) state.reads.reserve(4);
     state.reads.push_back({add_source({SyncSource::Kind::read, cell_, queue, after, stage, 0, 0, signalled, {}}), queue, stage});
     return state.reads.back();
   }
   Pending& add_write(CellState& state, uint32_t queue, Stages stage, Accesses access, uint32_t after, bool signalled) {
+    if (state.writes.capacity() == 0) state.writes.reserve(4);
     state.writes.push_back({add_source({SyncSource::Kind::write, cell_, queue, after, stage, access, 0, signalled, {}}), queue, stage, access});
     return state.writes.back();
   }
@@ -167,8 +170,8 @@ class CellWalk {
       const Accesses writes = effect.write_stages & stage ? effect.writes & supported_accesses(stage) : 0;
       for (const Pending& write : state.writes) {
         if (together(write, event, epoch)) continue;
-        // The readers of the same rendering are not waited for.
-        const bool waits_for_readers = write.read_since && write.read_in != event.segment;
+        // The readers of the same rendering are not waited for, nor those that commute.
+        const bool waits_for_readers = write.read_since && write.read_by != &epoch && write.read_in != event.segment;
         each_bit(reads | (waits_for_readers ? 0 : writes), [&](Accesses access) {
           if (sees_already(write, event.queue, stage, access)) return;
           if (write.carried && (access & kWrites) && &facts == &found_.facts) carried_.facts.push_back(static_cast<uint32_t>(facts.size()));
@@ -189,7 +192,7 @@ class CellWalk {
     if (effect.read_stages && !skips)
       for (Pending& write : state.writes) {
         if (write.read_since || write.pass == event.pass || together(write, event, epoch)) continue;
-        write.read_since = true, write.read_in = event.segment;
+        write.read_since = true, write.read_in = event.segment, write.read_by = epoch.share != Share::none ? &epoch : nullptr;
       }
     if (effect.writes && !skips && !commutes) state = {};
     each_bit(effect.read_stages, [&](Stages stage) {
@@ -333,10 +336,11 @@ class Finder {
 
   // Calls `change` and `use` in the order of the frame.
   void in_order(uint32_t cell, std::span<const Epoch> epochs, auto change, auto use) const {
-    const std::vector<uint32_t> changes = changes_of(cell);
+    const std::span<const uint32_t> scopes = order_.on_cell(cell);
     size_t next = 0;
     const auto change_until = [&](uint32_t point) {
-      for (; next < changes.size() && order_.scopes[changes[next]].point <= point; ++next) change(changes[next]);
+      for (; next < scopes.size() && order_.scopes[scopes[next]].point <= point; ++next)
+        if (order_.scopes[scopes[next]].changes) change(scopes[next]);
     };
     for (const Epoch& epoch : epochs)
       for (const Event& event : epoch.events) {
@@ -395,13 +399,6 @@ class Finder {
     else
       walk.leave(exit_[cell]);
     return walk.carried();
-  }
-
-  std::vector<uint32_t> changes_of(uint32_t cell) const {
-    std::vector<uint32_t> changes;
-    for (const uint32_t scope : order_.on_cell(cell))
-      if (order_.scopes[scope].changes) changes.push_back(scope);
-    return changes;
   }
 
   // `after` across queues: a chain of waits, in whatever stages.

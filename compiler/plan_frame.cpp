@@ -47,13 +47,72 @@ void use_general_layout(Frame& frame, const std::vector<uint32_t>& resources) {
     if (std::find(resources.begin(), resources.end(), frame.cells[use.cell].resource) != resources.end()) use.effect.layout = Layout::general;
 }
 
+// Passes with their renderings, in the order for one queue.
+struct Arrangement {
+  Frame frame;
+  Graph graph;
+  Renderings renderings;
+  Schedule one_queue;
+  std::vector<uint32_t> apart;  // passes that continue no rendering, though they could
+};
+
 // Passes that read depth use it in the layout of those of their rendering that write it.
-Renderings merge_passes(Frame& frame, Graph& graph, const std::vector<bool>& live, const PlanOptions& options) {
-  Renderings renderings = find_renderings(frame, graph, live, options);
-  if (renderings.layouts.empty()) return renderings;
-  for (const auto& [use, layout] : renderings.layouts) frame.uses[use].effect.layout = layout;
-  graph = build_graph(frame, live);
-  return find_renderings(frame, graph, live, options);
+void merge_passes(Arrangement& of, const std::vector<bool>& live, const PlanOptions& options) {
+  of.renderings = find_renderings(of.frame, of.graph, live, options, of.apart);
+  if (of.renderings.layouts.empty()) return;
+  for (const auto& [use, layout] : of.renderings.layouts) of.frame.uses[use].effect.layout = layout;
+  of.graph = build_graph(of.frame, live);
+  of.renderings = find_renderings(of.frame, of.graph, live, options, of.apart);
+}
+
+Arrangement arrange(Frame frame, const std::vector<bool>& live, const PlanOptions& options, std::vector<uint32_t> apart, Stopwatch& watch) {
+  Arrangement of{std::move(frame), {}, {}, {}, std::move(apart)};
+  of.graph = watch.time("build_graph", [&] { return build_graph(of.frame, live); });
+  watch.time("find_renderings", [&] { return merge_passes(of, live, options), 0; });
+  of.one_queue = watch.time("make_schedule", [&] { return make_schedule(of.frame, of.graph, live, of.renderings, options); });
+  return of;
+}
+
+// Orders that neither has an equal of in both costs.
+std::vector<SegmentCost> join_frontiers(std::vector<SegmentCost> all, const std::vector<SegmentCost>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  std::stable_sort(all.begin(), all.end(), [](const SegmentCost& a, const SegmentCost& b) { return std::pair(a.segments, a.peak) < std::pair(b.segments, b.peak); });
+  std::vector<SegmentCost> kept;
+  for (const SegmentCost& cost : all)
+    if (kept.empty() || cost.peak < kept.back().peak) kept.push_back(cost);
+  return kept;
+}
+
+Arrangement better_of(Arrangement a, Arrangement b) {
+  const bool takes_b = b.one_queue.score < a.one_queue.score;
+  Schedule &taken = takes_b ? b.one_queue : a.one_queue, &other = takes_b ? a.one_queue : b.one_queue;
+  taken.evaluations += other.evaluations;
+  taken.frontier = join_frontiers(std::move(taken.frontier), other.frontier);
+  return takes_b ? std::move(b) : std::move(a);
+}
+
+// A rendering of several passes saves barriers and holds at once whatever they use. So where one stands in the fullest place of the order, another order
+// is looked for with its passes apart, and the better of the two by score is taken.
+Arrangement arrange_freely(Frame frame, const std::vector<bool>& live, const PlanOptions& options, Stopwatch& watch) {
+  const bool weighs_memory = options.effort != Effort::fast && (options.prefer == Prefer::balance || options.prefer == Prefer::memory);
+  if (!weighs_memory || !options.merge || !options.reorder) return arrange(std::move(frame), live, options, {}, watch);
+  Arrangement merged = arrange(frame, live, options, {}, watch);
+  if (merged.one_queue.crowded.empty()) return merged;
+  return watch.time("part_renderings", [&] {
+    Stopwatch within;
+    std::vector<uint32_t> apart = merged.one_queue.crowded;
+    return better_of(std::move(merged), arrange(std::move(frame), live, options, std::move(apart), within));
+  });
+}
+
+Arrangement arrange_best(Frame frame, const std::vector<bool>& live, const PlanOptions& options, Stopwatch& watch) {
+  if (options.effort != Effort::max) return arrange_freely(std::move(frame), live, options, watch);
+  // The long search goes other ways than the short one, and is not to end up behind it.
+  PlanOptions short_options = options;
+  short_options.effort = Effort::normal;
+  Stopwatch within;
+  Arrangement found = watch.time("short_search", [&] { return arrange_freely(frame, live, short_options, within); });
+  return better_of(std::move(found), arrange_freely(std::move(frame), live, options, watch));
 }
 
 Overlap overlap_of(const QueuePlan& plan, const Schedule& one_queue, const std::vector<double>& costs, size_t queues) {
@@ -150,6 +209,33 @@ Queues use_queues(const Frame& frame, const Graph& graph, const Schedule& one_qu
   return queues;
 }
 
+// What the plan is, and where its memory lies.
+struct Placed {
+  PlanData plan;
+  MemoryPlan memory;
+};
+Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
+  Placed placed{watch.time("emit_plan", [&] { return emit_plan(parts); }), {}};
+  placed.memory = watch.time("plan_memory", [&] {
+    find_alias_clocks(placed.plan, parts.sync.over_at);
+    return place_transients(placed.plan, parts.options.effort);
+  });
+  return placed;
+}
+
+// On several queues: signals that name more stages, where memory can change hands for it and takes less.
+void signal_for_memory(const std::vector<Line>& lines, const PlanParts& parts, SyncPlan& sync, Placed& placed) {
+  constexpr double kWorthwhile = 0.99;
+  if (placed.plan.queues.size() == 1 || !parts.options.aliasing) return;
+  const std::vector<Stages> silent = silent_stages(placed.plan);
+  if (silent.empty()) return;
+  SyncPlan other_sync = synchronise(parts.frame, parts.schedule, lines, parts.options, silent);
+  Stopwatch within;
+  Placed other = emit_and_place({parts.frame, parts.liveness, parts.schedule, parts.contents, other_sync, parts.options}, within);
+  if (static_cast<double>(other.memory.heap_bytes) > kWorthwhile * static_cast<double>(placed.memory.heap_bytes)) return;
+  sync = std::move(other_sync), placed = std::move(other);
+}
+
 }  // namespace
 
 PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
@@ -170,51 +256,43 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   // What this configuration is made of, down to the subresource.
   Frame frame = watch.time("expand", [&] { return expand(program, graph_id, configuration, options); });
 
-  // Who needs whom; what nobody needs goes, and with it its hazards.
+  // What nobody needs goes, and with it its hazards.
   const std::vector<bool> all(frame.passes.size(), true);
   const Liveness liveness = watch.time("cull", [&] { return cull(frame, build_graph(frame, all)); });
-  Graph graph = watch.time("build_graph", [&] {
-    keep_contents(frame, options);
-    return build_graph(frame, liveness.live);
-  });
+  keep_contents(frame, options);
 
-  // Passes that are one rendering from here on move as one.
-  Renderings renderings = watch.time("find_renderings", [&] { return merge_passes(frame, graph, liveness.live, options); });
-
-  // Order, and where barriers stand. Beyond this point both are fixed.
-  Schedule one_queue = watch.time("make_schedule", [&] { return make_schedule(frame, graph, liveness.live, renderings, options); });
-  Queues queues = watch.time("assign_queues", [&] { return use_queues(frame, graph, one_queue, options); });
+  // Passes that are one rendering from here on move as one. Order, and where barriers stand: beyond this point both are fixed.
+  Arrangement arranged = arrange_best(std::move(frame), liveness.live, options, watch);
+  Queues queues = watch.time("assign_queues", [&] { return use_queues(arranged.frame, arranged.graph, arranged.one_queue, options); });
   if (!queues.contested.empty()) {
-    use_general_layout(frame, queues.contested);
-    graph = build_graph(frame, liveness.live);
-    renderings = find_renderings(frame, graph, liveness.live, options);
-    one_queue = make_schedule(frame, graph, liveness.live, renderings, options);
-    queues = use_queues(frame, graph, one_queue, options);
+    use_general_layout(arranged.frame, queues.contested);
+    arranged.graph = build_graph(arranged.frame, liveness.live);
+    arranged.renderings = find_renderings(arranged.frame, arranged.graph, liveness.live, options, arranged.apart);
+    arranged.one_queue = make_schedule(arranged.frame, arranged.graph, liveness.live, arranged.renderings, options);
+    queues = use_queues(arranged.frame, arranged.graph, arranged.one_queue, options);
   }
   const Schedule& schedule = queues.schedule;
-  const std::vector<Line> lines = watch.time("find_epochs", [&] { return find_epochs(frame, schedule); });
+  const std::vector<Line> lines = watch.time("find_epochs", [&] { return find_epochs(arranged.frame, schedule); });
 
   // Barriers do not depend on the placement: what it adds is patched in by runtime/alias.h.
-  const SyncPlan sync = watch.time("synchronise", [&] { return synchronise(frame, schedule, lines, options); });
+  SyncPlan sync = watch.time("synchronise", [&] { return synchronise(arranged.frame, schedule, lines, options); });
 
   FramePlan result;
   result.configuration = configuration;
-  const ContentsOfUses contents = find_contents(frame, lines);
-  const PlanParts parts{frame, liveness, schedule, contents, sync, options};
-  result.plan = watch.time("emit_plan", [&] { return emit_plan(parts); });
+  const ContentsOfUses contents = find_contents(arranged.frame, lines);
+  const PlanParts parts{arranged.frame, liveness, schedule, contents, sync, options};
 
   // Memory, estimated; the runtime places again with real sizes, within what the clocks allow.
-  const MemoryPlan memory = watch.time("plan_memory", [&] {
-    find_alias_clocks(result.plan);
-    const MemoryPlan placed = place_transients(result.plan, options.effort);
-    return placed;
-  });
+  Placed placed = emit_and_place(parts, watch);
+  watch.time("signal_for_memory", [&] { return signal_for_memory(lines, parts, sync, placed), 0; });
+  result.plan = std::move(placed.plan);
+  const MemoryPlan memory = placed.memory;
 
-  result.decisions = watch.time("explain", [&] { return options.reasons ? explain_plan(parts, graph, result.plan) : Decisions(); });
+  result.decisions = watch.time("explain", [&] { return options.reasons ? explain_plan(parts, arranged.graph, result.plan) : Decisions(); });
   result.overlap = queues.overlap, result.unproved = sync.unproved;
-  result.order = order_facts(one_queue);
-  if (options.reasons) count_pairs(frame, graph, schedule, sync, result.order);
-  result.decisions.insert(result.decisions.end(), renderings.decisions.begin(), renderings.decisions.end());
+  result.order = order_facts(arranged.one_queue);
+  if (options.reasons) count_pairs(arranged.frame, arranged.graph, schedule, sync, result.order);
+  result.decisions.insert(result.decisions.end(), arranged.renderings.decisions.begin(), arranged.renderings.decisions.end());
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());
   result.heap_bytes = memory.heap_bytes, result.unaliased_bytes = memory.unaliased_bytes, result.lower_bound_bytes = memory.lower_bound_bytes;
   result.phase_ms = std::move(watch.phases);

@@ -56,7 +56,8 @@ uint64_t bound_on_queues(const Items& items, const Plan& view) {
 // More than make_schedule() has spent on the order it has chosen.
 uint64_t packing_effort(Effort effort, size_t items) {
   if (effort == Effort::fast) return 100'000;
-  return effort == Effort::max ? 2'000'000'000 : 4000 * items;
+  if (effort == Effort::max) return items > 2000 ? 20'000 * items : 2'000'000'000;
+  return 4000 * items;
 }
 
 }  // namespace

@@ -16,4 +16,11 @@ dsl::Program read_profiles(dsl::Program program, const ReadFile& read, dsl::Diag
 // Without profiles only the shared memory of shaders is judged, by Vulkan's minimum: other limits show in the text, this one in no declaration.
 void judge_profiles(const dsl::Program& program, dsl::GraphId graph, const ShaderBundle& shaders, dsl::Diagnostics& diagnostics);
 
+// What the profile promises of a limit, or Vulkan's own minimum where it does not name it; 0 for a limit that the language cannot run into.
+double limit_of(const dsl::Profile& profile, const char* name);
+
+// Reports resources of the plan, imported ones are the engine's, of which one copy is larger at the maximal extents than any memory is promised to
+// hold in one piece.
+void judge_memory(const dsl::Program& program, dsl::GraphId graph, dsl::Diagnostics& diagnostics);
+
 }  // namespace rg::compiler

@@ -1,6 +1,7 @@
 #include "compiler/queue_timeline.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
 #include <queue>
 
@@ -98,19 +99,53 @@ class Simulator {
   QueueTimeline timeline_;
 };
 
+// Work of one queue: `head` is what comes before it on whatever queue, `tail` what comes after it.
+struct Job {
+  double head = 0, cost = 0, tail = 0;
+};
+
+// No queue that runs all of them is done, tails included, any earlier: Jackson's preemptive schedule (Carlier 1982), which gives the greatest
+// least head + costs + least tail of any part of them. O(n log n).
+double jobs_bound(std::vector<Job> jobs) {
+  std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.head < b.head; });
+  std::priority_queue<std::pair<double, double>> ready;  // tail, what is left of the cost
+  double now = 0, bound = 0;
+  for (size_t next = 0; next < jobs.size() || !ready.empty();) {
+    if (ready.empty()) now = std::max(now, jobs[next].head);
+    for (; next < jobs.size() && jobs[next].head <= now; ++next) ready.emplace(jobs[next].tail, jobs[next].cost);
+    const auto [tail, left] = ready.top();
+    ready.pop();
+    const double until = next < jobs.size() ? std::min(now + left, jobs[next].head) : now + left;
+    if (now + left > until)
+      ready.emplace(tail, now + left - until);
+    else
+      bound = std::max(bound, until + tail);
+    now = until;
+  }
+  return bound;
+}
+
 QueueGain bounds_of(const QueueProblem& problem) {
   QueueGain gain;
-  std::vector<double> chain(problem.nodes.size()), fixed(problem.queues);
+  const size_t n = problem.nodes.size();
+  std::vector<double> head(n), tail(n);
+  std::vector<std::vector<Job>> fixed(problem.queues);
   const Links links = links_of(problem);
-  for (uint32_t node = 0; node < problem.nodes.size(); ++node) {
-    const auto& row = problem.nodes[node];
-    gain.serial += row.cost;
-    if (row.away == UINT32_MAX) fixed[row.home] += row.cost;
-    chain[node] += row.cost;
-    gain.critical_path = std::max(gain.critical_path, chain[node]);
-    for (uint32_t i = links.first[node]; i < links.first[node + 1]; ++i) chain[links.after[i]] = std::max(chain[links.after[i]], chain[node]);
+  const auto each_after = [&](uint32_t node, auto visit) {
+    for (uint32_t i = links.first[node]; i < links.first[node + 1]; ++i) visit(links.after[i]);
+  };
+  for (uint32_t node = 0; node < n; ++node) {
+    gain.serial += problem.nodes[node].cost;
+    each_after(node, [&](uint32_t after) { head[after] = std::max(head[after], head[node] + problem.nodes[node].cost); });
   }
-  gain.bound = std::max({gain.critical_path, gain.serial / problem.queues, *std::max_element(fixed.begin(), fixed.end())});
+  for (auto node = static_cast<uint32_t>(n); node-- > 0;) {
+    const auto& row = problem.nodes[node];
+    each_after(node, [&](uint32_t after) { tail[node] = std::max(tail[node], tail[after] + problem.nodes[after].cost); });
+    gain.critical_path = std::max(gain.critical_path, head[node] + row.cost + tail[node]);
+    if (row.away == UINT32_MAX) fixed[row.home].push_back({head[node], row.cost, tail[node]});
+  }
+  gain.bound = std::max(gain.critical_path, gain.serial / problem.queues);
+  for (std::vector<Job>& jobs : fixed) gain.bound = std::max(gain.bound, jobs_bound(std::move(jobs)));
   return gain;
 }
 
@@ -125,21 +160,75 @@ class Chooser {
     for (uint32_t group = 0; group < problem.groups; ++group)  // then one by one
       if (members_[group].size() > 1)
         for (const uint32_t node : std::vector<uint32_t>(members_[group])) members_.push_back({node});
+    find_companies();
   }
 
   QueueChoice run() {
-    double end = end_of(choice_.queue_of);
-    for (bool changed = true; changed && choice_.complete;) {
-      changed = false;
-      for (const auto& members : members_) changed = send_home(members, end) || changed;
-    }
+    double end = settle(QueueOf(choice_.queue_of));
+    const QueueOf from_away = choice_.queue_of;
     const double alone = end_of(home_);
+    // What cannot be away together hides what could: so once more from everything at home, where much is left to gain.
+    if (end > choice_.gain.bound + kLittle * (choice_.gain.serial - choice_.gain.bound)) {
+      const double other = settle(home_);
+      end = other < end ? other : settle(from_away);
+    }
     choice_.gain.end = end;
     if (alone - end < threshold_) choice_.queue_of = home_, choice_.gain.end = alone;
     return std::move(choice_);
   }
 
  private:
+  // Nodes that may go together: one alone, and with the nearest one, three, seven and fifteen movable ones that it needs, or that need it.
+  void find_companies() {
+    constexpr size_t kMost = 16;
+    const size_t n = problem_.nodes.size();
+    std::vector<std::vector<uint32_t>> neighbours[2] = {std::vector<std::vector<uint32_t>>(n), std::vector<std::vector<uint32_t>>(n)};
+    const auto movable = [&](uint32_t node) { return problem_.nodes[node].away != UINT32_MAX; };
+    for (const auto& edge : problem_.edges)
+      if (movable(edge.before) && movable(edge.after)) neighbours[0][edge.before].push_back(edge.after), neighbours[1][edge.after].push_back(edge.before);
+    for (uint32_t node = 0; node < n; ++node) {
+      if (!movable(node)) continue;
+      companies_.push_back({node});
+      for (const auto& links : neighbours) {
+        std::vector<uint32_t> company{node};
+        for (size_t next = 0; next < company.size() && company.size() < kMost; ++next)
+          for (const uint32_t other : links[company[next]])
+            if (company.size() < kMost && std::find(company.begin(), company.end(), other) == company.end()) company.push_back(other);
+        for (size_t size = 2; size < 2 * company.size(); size *= 2)
+          companies_.emplace_back(company.begin(), company.begin() + static_cast<std::ptrdiff_t>(std::min(size, company.size())));
+      }
+    }
+  }
+
+  // Sends home and away until neither helps; gives the end.
+  double settle(const QueueOf& from) {
+    choice_.queue_of = from;
+    double end = end_of(from);
+    for (bool changed = true; changed && choice_.complete;) {
+      changed = false;
+      for (const auto& members : members_) changed = send_home(members, end) || changed;
+      for (const auto& company : companies_) changed = send_away(company, end) || changed;
+    }
+    return end;
+  }
+
+  bool spent() {
+    if (choice_.simulations * problem_.nodes.size() > effort_) choice_.complete = false;
+    return !choice_.complete;
+  }
+
+  bool send_away(const std::vector<uint32_t>& company, double& end) {
+    QueueOf queue_of = choice_.queue_of;
+    double own = 0;
+    for (const uint32_t node : company)
+      if (queue_of[node] == home_[node]) queue_of[node] = problem_.nodes[node].away, own += 0.1 * problem_.nodes[node].cost;
+    if (own == 0 || spent()) return false;
+    const double with = end_of(queue_of);
+    if (end - with <= own + problem_.wait) return false;
+    choice_.queue_of = std::move(queue_of), end = with;
+    return true;
+  }
+
   double end_of(const QueueOf& queue_of) {
     ++choice_.simulations;
     return simulate(problem_, queue_of).end;
@@ -147,10 +236,7 @@ class Chooser {
 
   bool send_home(const std::vector<uint32_t>& members, double& end) {
     if (members.empty() || choice_.queue_of[members.front()] == home_[members.front()]) return false;
-    if (choice_.simulations * problem_.nodes.size() > effort_) {
-      choice_.complete = false;
-      return false;
-    }
+    if (spent()) return false;
     QueueOf queue_of = choice_.queue_of;
     for (const uint32_t node : members) queue_of[node] = home_[node];
     const double without = end_of(queue_of);
@@ -165,10 +251,12 @@ class Chooser {
     return true;
   }
 
+  static constexpr double kLittle = 0.05;  // of what can be gained
   const QueueProblem& problem_;
   double threshold_;
   uint64_t effort_;
   QueueOf home_;
+  std::vector<std::vector<uint32_t>> companies_;
   std::vector<std::vector<uint32_t>> members_ = std::vector<std::vector<uint32_t>>(problem_.groups);
   QueueChoice choice_;
 };

@@ -7,8 +7,8 @@
 // The model is ideal: queues do not slow each other down. So it bounds from above what overlap can gain, which is what a decision needs that must not
 // move a pass for nothing.
 //
-// Source of the method: list scheduling (Graham 1966) that keeps a given order wherever that does not leave a queue idle; assignment by steepest
-// descent from "everything moved", since moving a chain pays only as a whole.
+// Source of the method: list scheduling (Graham 1966) that keeps a given order wherever that does not leave a queue idle; assignment by descent from
+// "everything moved", since moving a chain pays only as a whole, and from "nothing moved" where that leaves much to gain.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,7 @@ QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of);
 struct QueueGain {
   double serial = 0;         // everything on one queue
   double critical_path = 0;  // longest chain, waits not counted
-  double bound = 0;          // no assignment ends earlier: the longest chain, what only one queue may run, work divided by queues
+  double bound = 0;          // no assignment ends earlier: the longest chain, what only one queue may run with what comes before and after, work by queues
   double end = 0;            // of what was chosen
 };
 struct QueueChoice {
@@ -58,8 +58,8 @@ struct QueueChoice {
   uint64_t simulations = 0;
   bool complete = true;  // false: the search ended at its limit
 };
-// Moves what may move, and then back each group and each node that is worth less than a wait and a tenth of its own time; nothing at all if the whole
-// gain is below `threshold`. `effort` limits nodes simulated in all.
+// Moves what may move, then back each group and each node that is worth less than a wait and a tenth of its own time, and away again nodes with their
+// neighbours that are worth more, until neither helps; nothing at all if the whole gain is below `threshold`. `effort` limits nodes simulated in all.
 QueueChoice choose_queues(const QueueProblem& problem, double threshold, uint64_t effort);
 
 }  // namespace rg::compiler

@@ -46,7 +46,7 @@ bool runs_with(const dsl::Pass& first, const dsl::Pass& later) {
          includes(later.mip_limits, first.mip_limits, [](const auto& a, const auto& b) { return a.image == b.image && a.mip <= b.mip; });
 }
 
-bool clears(const dsl::Pass& pass) {
+bool clears_some(const dsl::Pass& pass) {
   return std::any_of(pass.accesses.begin(), pass.accesses.end(), [](const dsl::Access& a) { return is_attachment(a.role) && a.clear; });
 }
 bool resolves(const dsl::Pass& pass) {
@@ -55,10 +55,11 @@ bool resolves(const dsl::Pass& pass) {
 
 class Finder {
  public:
-  Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options)
+  Finder(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options, const std::vector<uint32_t>& apart)
       : frame_(frame),
         options_(options),
         live_(live),
+        apart_(apart),
         before_(frame.passes.size()),
         result_(separate_renderings(frame)),
         members_(frame.passes.size()),
@@ -72,6 +73,8 @@ class Finder {
       if (live_[pass] && frame_.pass(pass).kind == dsl::PassKind::raster) consider(pass);
     }
     if (!links_.empty()) keep_free_links(graph);
+    for (uint32_t pass = 0; pass < frame_.passes.size(); ++pass)
+      if (live_[pass] && frame_.pass(pass).kind == dsl::PassKind::transfer) suggest_folding(pass);
     finish();
     return std::move(result_);
   }
@@ -101,12 +104,14 @@ class Finder {
   std::string obstacle_to(uint32_t leader, uint32_t pass) {
     const dsl::Pass &first = frame_.pass(leader), &row = frame_.pass(pass);
     const uint32_t last = members_[leader].back();
+    if (std::binary_search(apart_.begin(), apart_.end(), pass))
+      return "apart the frame needs less memory, which is worth the barriers; `--prefer barriers` weighs otherwise";
     for (const uint32_t one : {last, pass})
       if (options_.no_merge.contains(frame_.pass(one).name)) return fmt::format("`--no-merge={}`", name(one));
     if (const std::string fixed = fixed_between(leader, pass); !fixed.empty()) return fixed;
     if (first.queue != row.queue) return "they name different queues";
     if (row.multiview) return "queries within a rendering of several views count for each, so its passes could not be timed";
-    if (clears(row)) return "it clears, which only the first pass of a rendering can; without `clear` it would continue";
+    if (clears_some(row)) return "it clears, which only the first pass of a rendering can; without `clear` it would continue";
     if (resolves(frame_.pass(last))) return fmt::format("`{}` resolves, which ends a rendering; a resolve in this pass would not", name(last));
     if (!runs_with(first, row)) return fmt::format("it may run where `{}` is skipped; under the same conditions it would continue", name(leader));
     if (const std::string other = other_dependency(leader, pass); !other.empty()) return other;
@@ -277,12 +282,53 @@ class Finder {
     });
   }
 
+  // A pass that only clears what a rendering begins with, or resolves what one ends with: the rendering can do that by itself.
+  void suggest_folding(uint32_t pass) {
+    for (const dsl::Transfer& transfer : frame_.pass(pass).transfers) {
+      const bool clears = transfer.kind == dsl::TransferKind::clear;
+      if (!clears && transfer.kind != dsl::TransferKind::resolve) continue;
+      const dsl::Access& access = frame_.pass(pass).accesses[clears ? transfer.dst : transfer.src];
+      const uint32_t other = clears ? neighbour(access, pass, 1) : neighbour(access, pass, -1);
+      if (other == UINT32_MAX || !draws_to(other, access)) continue;
+      const std::string& image = frame_.graph->resources[access.resource].name;
+      note(pass, "not folded",
+           fmt::format("`{}` draws to `{}` {}; with `{}` there its rendering would {} so, without this pass and a barrier between", name(other), image,
+                       clears ? "next" : "before", clears ? "clear" : "resolve", clears ? "begin" : "end"));
+    }
+  }
+  // The next live pass in that direction that touches something of the access.
+  uint32_t neighbour(const dsl::Access& access, uint32_t pass, int step) const {
+    const std::vector<uint32_t> cells = cells_of(frame_, access);
+    for (uint32_t other = pass + static_cast<uint32_t>(step); other < frame_.passes.size(); other += static_cast<uint32_t>(step)) {
+      const auto uses = frame_.uses_of(other);
+      const auto touches = [&](const Use& use) { return std::binary_search(cells.begin(), cells.end(), use.cell); };
+      if (!live_[other] || std::none_of(uses.begin(), uses.end(), touches)) continue;
+      const bool together = runs_with(frame_.pass(pass), frame_.pass(other)) && runs_with(frame_.pass(other), frame_.pass(pass));
+      return together ? other : UINT32_MAX;
+    }
+    return UINT32_MAX;
+  }
+  // As an attachment only, all that the access touches, in the state it is in.
+  bool draws_to(uint32_t pass, const dsl::Access& access) const {
+    if (frame_.pass(pass).kind != dsl::PassKind::raster) return false;
+    const std::vector<uint32_t> cells = cells_of(frame_, access);
+    std::vector<uint32_t> drawn;
+    for (const dsl::Access& other : frame_.pass(pass).accesses) {
+      if (other.resource != access.resource || other.age != access.age) continue;
+      if (!is_attachment(other.role) || other.clear || other.mode == dsl::Mode::read) return false;
+      for (const uint32_t cell : cells_of(frame_, other)) drawn.push_back(cell);
+    }
+    std::sort(drawn.begin(), drawn.end());
+    return drawn == cells;
+  }
+
   const std::string& name(uint32_t pass) const { return frame_.pass(pass).name; }
   void note(uint32_t pass, const char* what, std::string reason) { result_.decisions.push_back({name(pass), what, std::move(reason)}); }
 
   const Frame& frame_;
   const PlanOptions& options_;
   const std::vector<bool>& live_;
+  const std::vector<uint32_t>& apart_;  // passes that continue nothing
   std::vector<std::vector<const Dependency*>> before_;  // by pass
   Renderings result_;
   std::vector<std::vector<uint32_t>> members_;  // by leader, ascending
@@ -301,9 +347,10 @@ Renderings separate_renderings(const Frame& frame) {
   return result;
 }
 
-Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options) {
+Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options,
+                           const std::vector<uint32_t>& apart) {
   if (!options.merge) return separate_renderings(frame);
-  return Finder(frame, graph, live, options).run(graph);
+  return Finder(frame, graph, live, options, apart).run(graph);
 }
 
 }  // namespace rg::compiler

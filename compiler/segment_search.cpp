@@ -62,12 +62,12 @@ double score(const SegmentCost& cost, Prefer prefer) {
   const double bytes = static_cast<double>(cost.peak + (uint64_t{65536})), segments = cost.segments;
   switch (prefer) {
     case Prefer::memory:
-      return segments * bytes * bytes * bytes * bytes;
+      return segments * std::pow(bytes, 8);
     case Prefer::barriers:
     case Prefer::time:
-      return segments * segments * segments * segments * bytes;
+      return std::pow(segments, 4) * bytes;
     default:
-      return segments * bytes * std::sqrt(bytes);
+      return segments * std::pow(bytes, 3);
   }
 }
 
@@ -163,10 +163,10 @@ Segments compact_segments(const SegmentProblem& problem, const Segments& segment
 
 namespace {
 
-// Numbers of segments worth a search: the least, and up to a quarter more.
-std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Prefer prefer) {
-  const uint32_t most =
-      std::min(nodes, prefer == Prefer::barriers ? least + 1 : least + std::max(4u, nodes <= 400 ? least * 25 / 100 : least * 6 / 100));
+// Numbers of segments worth a search: the least, and up to a fifth more, or a quarter where nothing but construction finds orders.
+std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Effort effort, Prefer prefer) {
+  const uint32_t more = nodes > 400 ? least * 6 / 100 : effort == Effort::fast ? least / 4 : least / 5;
+  const uint32_t most = std::min(nodes, least + (prefer == Prefer::barriers ? 1 : std::max(4u, more)));
   std::vector<uint32_t> counts;
   for (uint32_t i = 0; i <= 5; ++i) counts.push_back(least + (most - least) * i / 5);
   if (nodes <= 60) counts.push_back(std::min(most, least + 2));
@@ -175,10 +175,10 @@ std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Prefer prefe
   return counts;
 }
 
-// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; up to three hundred times as many for the last effort.
+// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; for the last effort up to three hundred times as many, and no more than a minute.
 uint64_t total_evaluations(uint64_t nodes, Effort effort) {
   const uint64_t moves = nodes <= 400 ? 300 * nodes : nodes <= 1000 ? 120'000 + 30 * (nodes - 400) : 138'000 + 60 * (nodes - 1000);
-  return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 30) : moves;
+  return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 40) : moves;
 }
 
 // For each order that is packed: conflicts looked at, and how many orders like it are tried instead where it does not pack.
@@ -189,8 +189,8 @@ struct PackingEffort {
 constexpr uint64_t kDriftMoves = 30;  // a node
 
 PackingEffort packing_effort(const SegmentProblem& problem, Effort effort) {
-  if (effort == Effort::max) return {std::min<uint64_t>(100'000 * problem.items.size(), 200'000'000), 10};
-  return {3000 * problem.items.size(), 6};
+  if (effort == Effort::max) return {std::min<uint64_t>(100'000 * problem.items.size(), 50'000'000), problem.nodes > 2000 ? 4u : 10u};
+  return {1000 * problem.items.size(), 8};
 }
 
 // What was tried and not beaten, and what is found for each number of segments.
@@ -224,7 +224,7 @@ class Search {
       for (uint32_t drifts = 0;; segments = drift_segments(problem_, segments, kDriftMoves * problem_.nodes, ++drifts)) {
         const uint64_t bytes = packing.effort ? packed_bytes(problem_, segments, packing.effort) : tried->cost.peak;
         const double packed = score({tried->cost.segments, bytes}, prefer_);
-        if (packed < best) best = packed, result.best = segments;
+        if (packed < best) result.score = best = packed, result.best = segments;
         if (bytes <= tried->cost.peak || drifts == packing.drifts) break;
       }
     }
@@ -278,7 +278,7 @@ SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Pref
   const uint32_t least = count_of(earliest);
   search.result.method = "list scheduling";
   search.consider(earliest);
-  const std::vector<uint32_t> counts = counts_to_try(least, problem.nodes, prefer);
+  const std::vector<uint32_t> counts = counts_to_try(least, problem.nodes, effort, prefer);
   // A chain has one order, and moves would only find that out again and again.
   if (counts.back() == least && latest_segments(problem, least) == earliest) return std::move(search).choose(packing_effort(problem, effort));
   for (const uint32_t count : counts) {

@@ -38,8 +38,9 @@ struct SegmentCost {
   uint64_t peak = 0;
 };
 SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments);
-// Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 1.5: bytes weigh more because a group is cheap as long as it
-// is wide; memory takes the 4th power of bytes, barriers and time that of segments. 64 KiB are added, so that nothing is done for less.
+// Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 3: a group costs microseconds of a frame of milliseconds, the heap
+// is kept all the time, so a hundredth of it is worth three hundredths of the groups; memory takes the 8th power of bytes, barriers and time the 4th of
+// segments. 64 KiB are added, so that nothing is done for less.
 double score(const SegmentCost& cost, Prefer prefer);
 
 // Nodes in their order, a new segment wherever one depends on the current.
@@ -69,6 +70,7 @@ struct SegmentResult {
   std::vector<SegmentCost> frontier;  // of everything that was tried, by segments: none beats another in both
   uint64_t evaluations = 0;           // moves of the annealer
   const char* method = "";            // "program order", "list scheduling" or "annealing"
+  double score = 0;                   // of the best, packed; see below
 };
 // All of the above: program order and the searched ones, the best by score once packed. `fast` tries constructed ones only, `max` anneals much longer.
 SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compiler/gather_parts.h"
 #include "compiler/queue_links.h"
 #include "dsl/check_macro.h"
 
@@ -119,18 +120,17 @@ class Synchroniser {
     const bool acquired = !sync_.scattered[resource];
     link(line.cell, last, side_of(line.cell, line.epochs.front(), true), line.epochs.front().first_segment, acquired ? segment : UINT32_MAX);
     connect_within(line, false);
-    if (acquired) note_hand_over(line, resource, schedule_.slot_before(segment));
+    if (acquired) note_hand_over(line, last, resource, schedule_.slot_before(segment));
     boundary(sync_.entry, line.cell, last, Layout::undefined, true);
     boundary(sync_.exit, line.cell, last, last.effect.layout, true);
   }
 
-  void note_hand_over(const Line& line, uint32_t resource, uint32_t slot) {
+  void note_hand_over(const Line& line, const Side& last, uint32_t resource, uint32_t slot) {
     if (sync_.acquires.empty() || sync_.acquires.back().resource != resource) sync_.acquires.push_back({resource, slot, kNone, 0, 0, 0});
     const Effect& first = line.epochs.front().effect;
     sync_.acquires.back().stages |= first.stages(), sync_.acquires.back().accesses |= first.reads | first.writes;
-    const Side last = side_of(line.cell, line.epochs.back(), false);
     for (const uint32_t queue : queues_of(last)) {
-      const Effect effect = on_queue(frame_, line.cell, last, queue).effect;
+      const Effect effect = one_queue_ ? last.effect : on_queue(frame_, line.cell, last, queue).effect;
       Release& release = release_of(resource, queue);
       released_writes_[static_cast<size_t>(&release - sync_.releases.data())] |= effect.write_stages;
       release.stages = released_writes_[static_cast<size_t>(&release - sync_.releases.data())] | latest_stages(release.stages | effect.stages());
@@ -352,15 +352,15 @@ class Synchroniser {
 
   // One row a queue that has last users.
   void boundary(std::vector<CellBoundary>& rows, uint32_t cell, const Side& side, Layout layout, bool discard) const {
-    std::vector<uint32_t> queues = queues_of(side);
-    if (queues.empty()) queues = {0};
-    for (const uint32_t queue : queues) {
-      const Side mine = queues.size() > 1 ? on_queue(frame_, cell, side, queue) : side;
-      Boundary row;
-      row.stages = mine.effect.stages(), row.layout = layout, row.queue = queue, row.discard = discard;
-      if (mine.writes || !discard) row.accesses = mine.writes ? mine.effect.writes : mine.effect.reads;
-      rows.push_back({cell, row});
-    }
+    const std::vector<uint32_t> queues = one_queue_ ? std::vector<uint32_t>() : queues_of(side);
+    if (queues.size() < 2) return add_boundary(rows, cell, side, layout, discard, queues.empty() ? 0 : queues.front());
+    for (const uint32_t queue : queues) add_boundary(rows, cell, on_queue(frame_, cell, side, queue), layout, discard, queue);
+  }
+  static void add_boundary(std::vector<CellBoundary>& rows, uint32_t cell, const Side& mine, Layout layout, bool discard, uint32_t queue) {
+    Boundary row;
+    row.stages = mine.effect.stages(), row.layout = layout, row.queue = queue, row.discard = discard;
+    if (mine.writes || !discard) row.accesses = mine.writes ? mine.effect.writes : mine.effect.reads;
+    rows.push_back({cell, row});
   }
 
   struct Exit {
@@ -370,6 +370,7 @@ class Synchroniser {
   const Frame& frame_;
   const Schedule& schedule_;
   const PlanOptions& options_;
+  const bool one_queue_ = schedule_.queues.size() == 1;
   SyncPlan sync_;
   std::vector<Need> needs_;
   std::vector<Stages> released_writes_;  // by release: stages that have to be named because they write
@@ -379,8 +380,12 @@ class Synchroniser {
 
 }  // namespace
 
-SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options) {
+SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options,
+                     const std::vector<Stages>& for_memory) {
   SyncPlan sync = Synchroniser(frame, schedule, options).run(lines);
+  for (size_t b = 0; b < for_memory.size(); ++b)
+    if (sync.batches[b].signal != 0) sync.batches[b].signal |= for_memory[b], sync.batches[b].for_memory = for_memory[b];
+  gather_parts(frame, schedule, lines, sync);
   for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
   drop_redundant(frame, schedule, lines, sync);
   return sync;

@@ -17,6 +17,7 @@
 // the reads the contents are already visible to.
 #pragma once
 
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -59,8 +60,11 @@ struct BatchWait {
 };
 struct BatchSync {
   std::vector<BatchWait> waits;
-  Stages signal = 0;  // 0: nobody waits for it
+  Stages signal = 0;      // 0: nobody waits for it
+  Stages for_memory = 0;  // of them: those that are there so that memory can change hands, if the facts of drop_redundant() rest on them
 };
+// By program resource and queue: the batch whose signal comes after all that the queue does to the resource.
+using OverAt = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 
 struct SyncPlan {
   std::vector<std::vector<CellBarrier>> groups;  // by slot, see Schedule
@@ -69,10 +73,13 @@ struct SyncPlan {
   std::vector<CellBoundary> entry, exit;    // one row a queue that has last users
   std::vector<Acquire> acquires;            // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
+  OverAt over_at;         // where `for_memory` says so
   uint32_t unproved = 0;  // facts of obligations.h that do not hold: the planner is wrong
 };
 
-SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options);
+// `for_memory`: stages by batch that its signal names besides, see silent_stages() of alias_clocks.h.
+SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options,
+                     const std::vector<Stages>& for_memory = {});
 
 // Joins barriers of one group that differ only in neighbouring mips, layers or bytes. Part of synchronise.
 void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group);

@@ -129,25 +129,6 @@ void read_role(Builder& at) {
   if (*role == Role::depth && at.node.verb == Verb::read) at.access.role = Role::depth_readonly;
 }
 
-bool reads_only(Role role) {
-  switch (role) {
-    case Role::sampled:
-    case Role::uniform:
-    case Role::vertex:
-    case Role::index:
-    case Role::indirect:
-    case Role::input:
-    case Role::depth_readonly:
-    case Role::copy_src:
-    case Role::blit_src:
-    case Role::resolve_src:
-    case Role::host_read:
-      return true;
-    default:
-      return false;
-  }
-}
-
 bool writes_only(Role role) {
   switch (role) {
     case Role::copy_dst:

@@ -15,48 +15,9 @@ struct Rules {
   const Resource& resource(const Access& access) const { return graph.resources[access.resource]; }
 };
 
-const char* word_of(Role role) {
-  constexpr const char* kWords[] = {"sampled",        "storage",   "uniform",  "vertex",      "index",       "indirect",   "color",    "depth",
-                                    "depth readonly", "stencil",   "input",    "resolve_src", "resolve_dst", "copy_src",   "copy_dst", "blit_src",
-                                    "blit_dst",       "clear_dst", "fill_dst", "update_dst",  "host_read",   "host_write", "present",  "undefined"};
-  return kWords[static_cast<size_t>(role)];
-}
-
 const char* word_of(PassKind kind) {
   constexpr const char* kWords[] = {"raster", "compute", "transfer", "host"};
   return kWords[static_cast<size_t>(kind)];
-}
-
-bool of_images(Role role) {
-  switch (role) {
-    case Role::uniform:
-    case Role::vertex:
-    case Role::index:
-    case Role::indirect:
-    case Role::fill_dst:
-    case Role::update_dst:
-      return false;
-    default:
-      return true;
-  }
-}
-
-bool of_buffers(Role role) {
-  switch (role) {
-    case Role::storage:
-    case Role::copy_src:
-    case Role::copy_dst:
-    case Role::host_read:
-    case Role::host_write:
-      return true;
-    default:
-      return !of_images(role);
-  }
-}
-
-bool of_texels(Role role) {
-  return role == Role::sampled || role == Role::index ||
-         (of_buffers(role) && role != Role::uniform && role != Role::vertex && role != Role::indirect);
 }
 
 bool of_pass(Role role, PassKind kind) {
@@ -94,8 +55,7 @@ bool check_role(const Rules& rules, const Access& access) {
   const Resource& resource = rules.resource(access);
   const bool image = resource.kind == ResourceKind::image;
   const bool texels = !image && resource.format != Format::none;
-  const bool fits = image ? of_images(access.role) : texels ? of_texels(access.role) : of_buffers(access.role);
-  if (!fits) {
+  if (!suits_kind(resource, access.role)) {
     rules.checker
         .report(DiagnosticKind::RoleOfKind, access.span,
                 {resource.name,
@@ -136,9 +96,7 @@ void check_attachment_format(const Rules& rules, const Access& access, const For
 
 void check_storage_format(const Rules& rules, const Access& access, const FormatInfo& format) {
   if (format.is_block()) return report_format(rules, DiagnosticKind::BlockFormatUse, access, {"be used as storage"});
-  const Format seen = seen_format(rules.resource(access), access);
-  const bool fits = format.is_color() && format.numeric != Numeric::srgb && seen != Format::rgb9e5 && seen != Format::bgra8;
-  if (!fits) report_format(rules, DiagnosticKind::StorageFormat, access);
+  if (!is_storage_format(seen_format(rules.resource(access), access))) report_format(rules, DiagnosticKind::StorageFormat, access);
 }
 
 void check_sampler(const Rules& rules, const Access& access, const FormatInfo& format) {

@@ -288,6 +288,12 @@ void read_boundaries(Builder& at) {
   at.resource.after.wrote = false;
 }
 
+void check_boundaries(Builder& at) {
+  if (at.resource.lifetime != Lifetime::imported || !at.ok) return;
+  if (at.node.ready) at.ok = check_boundary(at.checker, at.resource, at.resource.before, at.node.ready->span);
+  if (at.node.after && at.ok) at.ok = check_boundary(at.checker, at.resource, at.resource.after, at.node.after->span);
+}
+
 void read_init(Builder& at) {
   if (!at.node.has_init || !at.node.clear) {
     const bool needs = at.ok && at.resource.lifetime == Lifetime::history;
@@ -331,6 +337,7 @@ void build(Builder& at) {
   else
     read_image(at);
   read_boundaries(at);
+  check_boundaries(at);
   read_init(at);
 }
 

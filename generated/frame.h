@@ -436,48 +436,48 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 64, .shaders = 49, .pipelines = 66, .barrier_groups = 29, .image_barriers = 69, .buffer_barriers = 33, .batches = 1,
-     .heap_bytes = 19118592, .unaliased_bytes = 21207040, .lower_bound_bytes = 19116288};
+    {.passes = 64, .shaders = 49, .pipelines = 66, .barrier_groups = 29, .image_barriers = 62, .buffer_barriers = 27, .batches = 1,
+     .heap_bytes = 19134208, .unaliased_bytes = 21207040, .lower_bound_bytes = 19116288};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
     {.group = 1},  // mesh_cull_world_clear
     {.position = 1, .group = 2, .barriers = 2},  // mesh_cull
-    {.position = 2, .group = 2},  // lamp_cull
-    {.position = 3, .group = 3, .barriers = 4},  // lamp_shadow_world_0
-    {.position = 4, .group = 3},  // depth_world
-    {.position = 5, .group = 3},  // depth_props
-    {.position = 6, .group = 4, .barriers = 5},  // lamp_shadow_world_2
-    {.position = 7, .group = 4},  // depth_range_first
-    {.position = 8, .group = 4},  // zbin_build_clear
-    {.position = 9, .group = 5, .barriers = 5},  // lamp_shadow_world_1
-    {.position = 10, .group = 5},  // lamp_shadow_world_6
-    {.position = 11, .group = 5},  // depth_range_down_1
-    {.position = 12, .group = 6, .barriers = 1},  // depth_range_down_2
-    {.position = 13, .group = 7, .barriers = 5},  // lamp_shadow_world_3
-    {.position = 14, .group = 7},  // depth_range_down_3
-    {.position = 15, .group = 7},  // zbin_build
-    {.position = 16, .group = 8, .barriers = 8},  // lamp_shadow_world_4
-    {.position = 17, .group = 8},  // depth_range_down_4
-    {.position = 18, .group = 8},  // tile_cull
-    {.position = 19, .group = 8},  // gbuffer_world
-    {.position = 20, .group = 8},  // gbuffer_props
-    {.position = 21, .group = 9, .barriers = 1},  // depth_range_down_5
-    {.position = 22, .group = 9},  // deferred_light_reset
-    {.position = 23, .group = 10, .barriers = 10},  // lamp_shadow_world_5
-    {.position = 24, .group = 10},  // lamp_shadow_world_7
-    {.position = 25, .group = 10},  // froxel_fog_clusters_cull
-    {.position = 26, .group = 10},  // depth_range_down_6
-    {.position = 27, .group = 10},  // ambient_occlusion
-    {.position = 28, .group = 10},  // deferred_light_classify
-    {.position = 29, .group = 11, .barriers = 3},  // depth_range_down_7
-    {.position = 30, .group = 11},  // zbin_pack
-    {.position = 31, .group = 11},  // light_occlusion_clear
-    {.position = 32, .group = 12, .barriers = 4},  // sun_shadow_world
-    {.position = 33, .group = 12},  // sun_shadow_props
-    {.position = 34, .group = 12},  // light_occlusion
-    {.position = 35, .group = 13, .barriers = 9},  // froxel_fog_merged
-    {.position = 36, .group = 13},  // light_cull
+    {.position = 2, .group = 3, .barriers = 2},  // depth_world
+    {.position = 3, .group = 3},  // depth_props
+    {.position = 4, .group = 4, .barriers = 2},  // depth_range_first
+    {.position = 5, .group = 5, .barriers = 1},  // depth_range_down_1
+    {.position = 6, .group = 6, .barriers = 1},  // depth_range_down_2
+    {.position = 7, .group = 7, .barriers = 1},  // depth_range_down_3
+    {.position = 8, .group = 8, .barriers = 1},  // depth_range_down_4
+    {.position = 9, .group = 9, .barriers = 1},  // depth_range_down_5
+    {.position = 10, .group = 10, .barriers = 1},  // depth_range_down_6
+    {.position = 11, .group = 11, .barriers = 3},  // lamp_cull
+    {.position = 12, .group = 11},  // depth_range_down_7
+    {.position = 13, .group = 11},  // zbin_build_clear
+    {.position = 14, .group = 11},  // light_occlusion_clear
+    {.position = 15, .group = 12, .barriers = 13},  // sun_shadow_world
+    {.position = 16, .group = 12},  // sun_shadow_props
+    {.position = 17, .group = 12},  // lamp_shadow_world_0
+    {.position = 18, .group = 12},  // lamp_shadow_world_1
+    {.position = 19, .group = 12},  // lamp_shadow_world_2
+    {.position = 20, .group = 12},  // lamp_shadow_world_3
+    {.position = 21, .group = 12},  // lamp_shadow_world_4
+    {.position = 22, .group = 12},  // lamp_shadow_world_5
+    {.position = 23, .group = 12},  // lamp_shadow_world_6
+    {.position = 24, .group = 12},  // lamp_shadow_world_7
+    {.position = 25, .group = 12},  // froxel_fog_clusters_cull
+    {.position = 26, .group = 12},  // zbin_build
+    {.position = 27, .group = 12},  // light_occlusion
+    {.position = 28, .group = 12},  // tile_cull
+    {.position = 29, .group = 12},  // gbuffer_world
+    {.position = 30, .group = 12},  // gbuffer_props
+    {.position = 31, .group = 12},  // deferred_light_reset
+    {.position = 32, .group = 13, .barriers = 16},  // froxel_fog_merged
+    {.position = 33, .group = 13},  // zbin_pack
+    {.position = 34, .group = 13},  // light_cull
+    {.position = 35, .group = 13},  // ambient_occlusion
+    {.position = 36, .group = 13},  // deferred_light_classify
     {.position = 37, .group = 14, .barriers = 12},  // deferred_light_0
     {.position = 38, .group = 14},  // deferred_light_1
     {.position = 39, .group = 14},  // deferred_light_2
@@ -490,63 +490,63 @@ inline constexpr rg::PassFigures kPassFigures[] = {
     {.position = 46, .group = 15},  // hologram
     {.position = 47, .group = 16, .barriers = 3},  // resolve_temporal
     {.position = 48, .group = 17, .barriers = 3},  // bloom_first
-    {.position = 49, .group = 18, .barriers = 1},  // luminance_clear
-    {.position = 50, .group = 18},  // bloom_down_1
-    {.position = 51, .group = 19, .barriers = 4},  // debug_view
-    {.position = 52, .group = 19},  // luminance
-    {.position = 53, .group = 19},  // bloom_down_2
-    {.position = 54, .group = 20, .barriers = 1},  // bloom_down_3
-    {.position = 55, .group = 21, .barriers = 1},  // bloom_down_4
-    {.position = 56, .group = 22, .barriers = 1},  // bloom_down_5
-    {.position = 57, .group = 23, .barriers = 2},  // bloom_up_1
-    {.position = 58, .group = 24, .barriers = 3},  // expose
-    {.position = 59, .group = 24},  // bloom_up_2
-    {.position = 60, .group = 25, .barriers = 2},  // bloom_up_3
-    {.position = 61, .group = 26, .barriers = 2},  // bloom_up_4
-    {.position = 62, .group = 27, .barriers = 2},  // bloom_up_5
+    {.position = 49, .group = 18, .barriers = 1},  // bloom_down_1
+    {.position = 50, .group = 19, .barriers = 1},  // bloom_down_2
+    {.position = 51, .group = 20, .barriers = 1},  // bloom_down_3
+    {.position = 52, .group = 21, .barriers = 1},  // bloom_down_4
+    {.position = 53, .group = 22, .barriers = 1},  // bloom_down_5
+    {.position = 54, .group = 23, .barriers = 2},  // bloom_up_1
+    {.position = 55, .group = 24, .barriers = 2},  // bloom_up_2
+    {.position = 56, .group = 25, .barriers = 2},  // luminance_clear
+    {.position = 57, .group = 25},  // bloom_up_3
+    {.position = 58, .group = 26, .barriers = 3},  // luminance
+    {.position = 59, .group = 26},  // bloom_up_4
+    {.position = 60, .group = 27, .barriers = 5},  // debug_view
+    {.position = 61, .group = 27},  // expose
+    {.position = 62, .group = 27},  // bloom_up_5
     {.position = 63, .group = 28, .barriers = 4},  // tonemap
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {},  // mesh_cull_world_clear
     {.instructions = 174, .alu = 47, .loads = 7, .stores = 2, .atomics = 3, .branches = 12, .live_scalars = 43},  // mesh_cull
-    {.instructions = 110, .alu = 33, .loads = 3, .stores = 1, .branches = 7, .live_scalars = 51},  // lamp_cull
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_0
     {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // depth_world
     {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // depth_props
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_2
     {.instructions = 65, .alu = 12, .samples = 1, .stores = 1, .branches = 4, .live_scalars = 14},  // depth_range_first
-    {},  // zbin_build_clear
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_1
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_6
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_1
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_2
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_3
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_3
-    {.instructions = 55, .alu = 11, .loads = 3, .atomics = 2, .branches = 4, .live_scalars = 34},  // zbin_build
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_4
     {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_4
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_5
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_6
+    {.instructions = 110, .alu = 33, .loads = 3, .stores = 1, .branches = 7, .live_scalars = 51},  // lamp_cull
+    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_7
+    {},  // zbin_build_clear
+    {},  // light_occlusion_clear
+    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
+    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // sun_shadow_props
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_0
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_1
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_2
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_3
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_4
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_5
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_6
+    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_7
+    // froxel_fog_clusters_cull
+    {.instructions = 305, .alu = 87, .loads = 11, .stores = 2, .atomics = 2, .branches = 18, .shared_bytes = 68, .live_scalars = 76},
+    {.instructions = 55, .alu = 11, .loads = 3, .atomics = 2, .branches = 4, .live_scalars = 34},  // zbin_build
+    {.instructions = 188, .alu = 61, .samples = 1, .loads = 7, .atomics = 1, .branches = 12, .live_scalars = 36},  // light_occlusion
     // tile_cull
     {.instructions = 417, .alu = 137, .samples = 1, .loads = 12, .stores = 5, .atomics = 4, .branches = 25, .shared_bytes = 76, .live_scalars = 60},
     {.instructions = 127, .alu = 48, .samples = 2, .loads = 6, .branches = 1, .live_scalars = 59},  // gbuffer_world
     {.instructions = 167, .alu = 47, .loads = 9, .branches = 7, .live_scalars = 41},  // gbuffer_props
-    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_5
     {},  // deferred_light_reset
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_5
-    {.instructions = 42, .alu = 11, .loads = 4, .live_scalars = 25},  // lamp_shadow_world_7
-    // froxel_fog_clusters_cull
-    {.instructions = 305, .alu = 87, .loads = 11, .stores = 2, .atomics = 2, .branches = 18, .shared_bytes = 68, .live_scalars = 76},
-    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_6
-    {.instructions = 198, .alu = 86, .samples = 3, .loads = 8, .stores = 2, .branches = 8, .live_scalars = 39},  // ambient_occlusion
-    {.instructions = 104, .alu = 26, .loads = 1, .stores = 4, .atomics = 1, .branches = 8, .live_scalars = 12},  // deferred_light_classify
-    {.instructions = 90, .alu = 16, .samples = 1, .stores = 1, .branches = 6, .live_scalars = 16},  // depth_range_down_7
-    {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
-    {},  // light_occlusion_clear
-    {.instructions = 29, .alu = 3, .loads = 4, .live_scalars = 24},  // sun_shadow_world
-    {.instructions = 47, .alu = 10, .loads = 3, .branches = 2, .live_scalars = 21},  // sun_shadow_props
-    {.instructions = 188, .alu = 61, .samples = 1, .loads = 7, .atomics = 1, .branches = 12, .live_scalars = 36},  // light_occlusion
     {.instructions = 1731, .alu = 667, .samples = 12, .loads = 37, .stores = 3, .branches = 110, .live_scalars = 118},  // froxel_fog_merged
+    {.instructions = 25, .alu = 3, .loads = 2, .stores = 1, .branches = 2, .live_scalars = 3},  // zbin_pack
     // light_cull
     {.instructions = 421, .alu = 161, .samples = 1, .loads = 9, .stores = 2, .atomics = 2, .branches = 25, .shared_bytes = 128, .live_scalars = 65},
+    {.instructions = 198, .alu = 86, .samples = 3, .loads = 8, .stores = 2, .branches = 8, .live_scalars = 39},  // ambient_occlusion
+    {.instructions = 104, .alu = 26, .loads = 1, .stores = 4, .atomics = 1, .branches = 8, .live_scalars = 12},  // deferred_light_classify
     {.instructions = 1215, .alu = 544, .samples = 14, .loads = 39, .stores = 2, .branches = 58, .live_scalars = 93},  // deferred_light_0
     {.instructions = 2143, .alu = 877, .samples = 19, .loads = 58, .stores = 2, .branches = 127, .live_scalars = 105},  // deferred_light_1
     {.instructions = 2216, .alu = 961, .samples = 15, .loads = 58, .stores = 2, .branches = 129, .live_scalars = 108},  // deferred_light_2
@@ -559,110 +559,110 @@ inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {},  // hologram
     {.instructions = 217, .alu = 75, .samples = 6, .loads = 7, .stores = 1, .branches = 8, .live_scalars = 34},  // resolve_temporal
     {.instructions = 69, .alu = 23, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 19},  // bloom_first
-    {},  // luminance_clear
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_1
-    {.instructions = 662, .alu = 245, .samples = 13, .loads = 28, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
-    {.instructions = 85, .alu = 17, .samples = 1, .atomics = 2, .branches = 7, .shared_bytes = 512, .live_scalars = 7},  // luminance
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_2
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_3
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_4
     {.instructions = 59, .alu = 20, .samples = 1, .stores = 1, .branches = 3, .live_scalars = 14},  // bloom_down_5
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_1
-    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_2
+    {},  // luminance_clear
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_3
+    {.instructions = 85, .alu = 17, .samples = 1, .atomics = 2, .branches = 7, .shared_bytes = 512, .live_scalars = 7},  // luminance
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_4
+    {.instructions = 662, .alu = 245, .samples = 13, .loads = 28, .stores = 1, .branches = 27, .live_scalars = 13},  // debug_view
+    {.instructions = 82, .alu = 27, .loads = 4, .stores = 1, .branches = 4, .live_scalars = 8},  // expose
     {.instructions = 79, .alu = 26, .samples = 1, .loads = 1, .stores = 1, .branches = 4, .live_scalars = 16},  // bloom_up_5
     {.instructions = 76, .alu = 29, .samples = 3, .loads = 4, .branches = 3, .live_scalars = 11},  // tonemap
 };
 inline constexpr rg::ResourceFigures kResourceFigures[] = {
-    {.bytes = 256, .first = 15, .last = 45},  // scene_lights
-    {.bytes = 256, .first = 25, .last = 35},  // scene_fog_volumes
+    {.bytes = 256, .first = 25, .last = 45},  // scene_lights
+    {.bytes = 256, .first = 25, .last = 32},  // scene_fog_volumes
     {.bytes = 256, .first = 1, .last = 45},  // scene_instances
-    {.bytes = 256, .first = 19, .last = 45},  // scene_materials
-    {.bytes = 256, .first = 3, .last = 45},  // scene_vertices
-    {.bytes = 256, .first = 3, .last = 45},  // scene_indices
-    {.bytes = 256, .first = 5, .last = 33},  // scene_props
-    {.bytes = 256, .first = 5, .last = 33},  // scene_prop_indices
-    {.bytes = 11206656, .first = 19, .last = 45},  // scene_albedo_maps
-    {.bytes = 11206656, .first = 19, .last = 19},  // scene_surface_maps
+    {.bytes = 256, .first = 29, .last = 45},  // scene_materials
+    {.bytes = 256, .first = 2, .last = 45},  // scene_vertices
+    {.bytes = 256, .first = 2, .last = 45},  // scene_indices
+    {.bytes = 256, .first = 3, .last = 30},  // scene_props
+    {.bytes = 256, .first = 3, .last = 30},  // scene_prop_indices
+    {.bytes = 11206656, .first = 29, .last = 45},  // scene_albedo_maps
+    {.bytes = 11206656, .first = 29, .last = 29},  // scene_surface_maps
     {.bytes = 983040, .first = 63, .last = 63},  // backbuffer
-    {.bytes = 16384, .offset = 196608, .transient = true, .first = 1, .last = 19},  // world_draws
-    {.bytes = 16384, .offset = 15557888, .transient = true, .first = 1, .last = 32},  // sun_draws
+    {.bytes = 16384, .offset = 1225984, .transient = true, .first = 1, .last = 29},  // world_draws
+    {.bytes = 16384, .offset = 1242368, .transient = true, .first = 1, .last = 15},  // sun_draws
     {.bytes = 256, .last = 1},  // cull_counts
-    {.bytes = 9437184, .transient = true, .first = 32, .last = 45},  // sun_shadow
-    {.bytes = 131072, .transient = true, .first = 2, .last = 24},  // lamp_draws
-    {.bytes = 2097152, .first = 3, .last = 45},  // lamp_shadow
-    {.bytes = 589824, .offset = 17235968, .transient = true, .first = 35, .last = 51},  // scattered
-    {.bytes = 327680, .offset = 18087936, .transient = true, .first = 35, .last = 51},  // transmittance
-    {.bytes = 9216, .offset = 15548416, .transient = true, .first = 25, .last = 35},  // froxel_fog_cluster_volumes
-    {.bytes = 147456, .offset = 15400960, .transient = true, .first = 25, .last = 35},  // froxel_fog_cluster_lights
-    {.bytes = 2359296, .first = 35, .last = 35},  // froxel_fog_memory
-    {.bytes = 983040, .offset = 9437184, .transient = true, .first = 4, .last = 51},  // depth
-    {.bytes = 65536, .offset = 15335424, .transient = true, .first = 7, .last = 36},  // depth_range
-    {.bytes = 32768, .offset = 131072, .transient = true, .first = 8, .last = 30},  // zbin_min
-    {.bytes = 32768, .offset = 163840, .transient = true, .first = 8, .last = 30},  // zbin_max
-    {.bytes = 32768, .offset = 19085568, .transient = true, .first = 30, .last = 51},  // zbins
-    {.bytes = 256, .offset = 15557632, .transient = true, .first = 31, .last = 36},  // lights_seen
-    {.bytes = 230400, .offset = 18612224, .transient = true, .first = 36, .last = 51},  // tile_lights
-    {.bytes = 230400, .offset = 17857536, .transient = true, .first = 36, .last = 51},  // forward_lights
-    {.bytes = 242944, .offset = 18842624, .transient = true, .first = 18, .last = 51},  // tile_records
-    {.bytes = 3840, .first = 18, .last = 51},  // tile_features
-    {.bytes = 65536, .offset = 18546688, .transient = true, .first = 28, .last = 51},  // tile_kernels
-    {.bytes = 983040, .offset = 10420224, .transient = true, .first = 19, .last = 51},  // albedo
-    {.bytes = 983040, .offset = 11403264, .transient = true, .first = 19, .last = 51},  // normal
-    {.bytes = 983040, .offset = 12386304, .transient = true, .first = 19, .last = 51},  // material
-    {.bytes = 983040, .offset = 13369344, .transient = true, .first = 19, .last = 51},  // emissive
-    {.bytes = 983040, .offset = 14352384, .transient = true, .first = 19, .last = 51},  // velocity
-    {.bytes = 131072, .offset = 18415616, .transient = true, .first = 27, .last = 51},  // occlusion
-    {.bytes = 1900544, .offset = 15335424, .transient = true, .first = 37, .last = 52},  // hdr
-    {.bytes = 983040, .transient = true, .first = 51, .last = 63},  // debug_image
-    {.bytes = 512, .offset = 1638400, .transient = true, .first = 49, .last = 58},  // histogram
-    {.bytes = 512, .first = 58, .last = 63},  // exposure
+    {.bytes = 9437184, .offset = 8323072, .transient = true, .first = 15, .last = 45},  // sun_shadow
+    {.bytes = 131072, .offset = 1258752, .transient = true, .first = 11, .last = 24},  // lamp_draws
+    {.bytes = 2097152, .first = 17, .last = 45},  // lamp_shadow
+    {.bytes = 589824, .offset = 17760256, .transient = true, .first = 32, .last = 60},  // scattered
+    {.bytes = 327680, .offset = 18350080, .transient = true, .first = 32, .last = 60},  // transmittance
+    {.bytes = 9216, .offset = 1489408, .transient = true, .first = 25, .last = 32},  // froxel_fog_cluster_volumes
+    {.bytes = 147456, .offset = 1498624, .transient = true, .first = 25, .last = 32},  // froxel_fog_cluster_lights
+    {.bytes = 2359296, .first = 32, .last = 32},  // froxel_fog_memory
+    {.bytes = 983040, .transient = true, .first = 2, .last = 60},  // depth
+    {.bytes = 65536, .offset = 1769472, .transient = true, .first = 4, .last = 34},  // depth_range
+    {.bytes = 32768, .offset = 1646080, .transient = true, .first = 13, .last = 33},  // zbin_min
+    {.bytes = 32768, .offset = 1678848, .transient = true, .first = 13, .last = 33},  // zbin_max
+    {.bytes = 32768, .offset = 1225984, .transient = true, .first = 33, .last = 60},  // zbins
+    {.bytes = 256, .offset = 1711616, .transient = true, .first = 14, .last = 34},  // lights_seen
+    {.bytes = 230400, .offset = 1258752, .transient = true, .first = 34, .last = 60},  // tile_lights
+    {.bytes = 230400, .offset = 18874368, .transient = true, .first = 34, .last = 60},  // forward_lights
+    {.bytes = 242944, .offset = 983040, .transient = true, .first = 28, .last = 60},  // tile_records
+    {.bytes = 3840, .first = 28, .last = 60},  // tile_features
+    {.bytes = 65536, .offset = 18677760, .transient = true, .first = 36, .last = 60},  // tile_kernels
+    {.bytes = 983040, .offset = 3407872, .transient = true, .first = 29, .last = 60},  // albedo
+    {.bytes = 983040, .offset = 4390912, .transient = true, .first = 29, .last = 60},  // normal
+    {.bytes = 983040, .offset = 5373952, .transient = true, .first = 29, .last = 60},  // material
+    {.bytes = 983040, .offset = 6356992, .transient = true, .first = 29, .last = 60},  // emissive
+    {.bytes = 983040, .offset = 7340032, .transient = true, .first = 29, .last = 60},  // velocity
+    {.bytes = 131072, .offset = 18743296, .transient = true, .first = 35, .last = 60},  // occlusion
+    {.bytes = 1900544, .offset = 1507328, .transient = true, .first = 37, .last = 60},  // hdr
+    {.bytes = 983040, .offset = 8323072, .transient = true, .first = 60, .last = 63},  // debug_image
+    {.bytes = 512, .offset = 1489152, .transient = true, .first = 56, .last = 61},  // histogram
+    {.bytes = 512, .first = 61, .last = 63},  // exposure
     {.bytes = 3801088, .first = 47, .last = 63},  // color
-    {.bytes = 655360, .offset = 983040, .transient = true, .first = 48, .last = 63},  // bloom
-    {.bytes = 256, .offset = 19118336, .transient = true, .first = 22, .last = 44},  // deferred_light_arguments
-    {.bytes = 29440, .offset = 17828096, .transient = true, .first = 28, .last = 44},  // deferred_light_tiles
+    {.bytes = 655360, .offset = 9306112, .transient = true, .first = 48, .last = 63},  // bloom
+    {.bytes = 256, .offset = 1489152, .transient = true, .first = 31, .last = 44},  // deferred_light_arguments
+    {.bytes = 29440, .offset = 19104768, .transient = true, .first = 36, .last = 44},  // deferred_light_tiles
 };
 // Indices of Plan::passes.
 namespace pass {
 inline constexpr rg::Index mesh_cull_world_clear = 0;
 inline constexpr rg::Index mesh_cull = 1;
-inline constexpr rg::Index lamp_cull = 2;
-inline constexpr rg::Index lamp_shadow_world_0 = 3;
-inline constexpr rg::Index depth_world = 4;
-inline constexpr rg::Index depth_props = 5;
-inline constexpr rg::Index lamp_shadow_world_2 = 6;
-inline constexpr rg::Index depth_range_first = 7;
-inline constexpr rg::Index zbin_build_clear = 8;
-inline constexpr rg::Index lamp_shadow_world_1 = 9;
-inline constexpr rg::Index lamp_shadow_world_6 = 10;
-inline constexpr rg::Index depth_range_down_1 = 11;
-inline constexpr rg::Index depth_range_down_2 = 12;
-inline constexpr rg::Index lamp_shadow_world_3 = 13;
-inline constexpr rg::Index depth_range_down_3 = 14;
-inline constexpr rg::Index zbin_build = 15;
-inline constexpr rg::Index lamp_shadow_world_4 = 16;
-inline constexpr rg::Index depth_range_down_4 = 17;
-inline constexpr rg::Index tile_cull = 18;
-inline constexpr rg::Index gbuffer_world = 19;
-inline constexpr rg::Index gbuffer_props = 20;
-inline constexpr rg::Index depth_range_down_5 = 21;
-inline constexpr rg::Index deferred_light_reset = 22;
-inline constexpr rg::Index lamp_shadow_world_5 = 23;
+inline constexpr rg::Index depth_world = 2;
+inline constexpr rg::Index depth_props = 3;
+inline constexpr rg::Index depth_range_first = 4;
+inline constexpr rg::Index depth_range_down_1 = 5;
+inline constexpr rg::Index depth_range_down_2 = 6;
+inline constexpr rg::Index depth_range_down_3 = 7;
+inline constexpr rg::Index depth_range_down_4 = 8;
+inline constexpr rg::Index depth_range_down_5 = 9;
+inline constexpr rg::Index depth_range_down_6 = 10;
+inline constexpr rg::Index lamp_cull = 11;
+inline constexpr rg::Index depth_range_down_7 = 12;
+inline constexpr rg::Index zbin_build_clear = 13;
+inline constexpr rg::Index light_occlusion_clear = 14;
+inline constexpr rg::Index sun_shadow_world = 15;
+inline constexpr rg::Index sun_shadow_props = 16;
+inline constexpr rg::Index lamp_shadow_world_0 = 17;
+inline constexpr rg::Index lamp_shadow_world_1 = 18;
+inline constexpr rg::Index lamp_shadow_world_2 = 19;
+inline constexpr rg::Index lamp_shadow_world_3 = 20;
+inline constexpr rg::Index lamp_shadow_world_4 = 21;
+inline constexpr rg::Index lamp_shadow_world_5 = 22;
+inline constexpr rg::Index lamp_shadow_world_6 = 23;
 inline constexpr rg::Index lamp_shadow_world_7 = 24;
 inline constexpr rg::Index froxel_fog_clusters_cull = 25;
-inline constexpr rg::Index depth_range_down_6 = 26;
-inline constexpr rg::Index ambient_occlusion = 27;
-inline constexpr rg::Index deferred_light_classify = 28;
-inline constexpr rg::Index depth_range_down_7 = 29;
-inline constexpr rg::Index zbin_pack = 30;
-inline constexpr rg::Index light_occlusion_clear = 31;
-inline constexpr rg::Index sun_shadow_world = 32;
-inline constexpr rg::Index sun_shadow_props = 33;
-inline constexpr rg::Index light_occlusion = 34;
-inline constexpr rg::Index froxel_fog_merged = 35;
-inline constexpr rg::Index light_cull = 36;
+inline constexpr rg::Index zbin_build = 26;
+inline constexpr rg::Index light_occlusion = 27;
+inline constexpr rg::Index tile_cull = 28;
+inline constexpr rg::Index gbuffer_world = 29;
+inline constexpr rg::Index gbuffer_props = 30;
+inline constexpr rg::Index deferred_light_reset = 31;
+inline constexpr rg::Index froxel_fog_merged = 32;
+inline constexpr rg::Index zbin_pack = 33;
+inline constexpr rg::Index light_cull = 34;
+inline constexpr rg::Index ambient_occlusion = 35;
+inline constexpr rg::Index deferred_light_classify = 36;
 inline constexpr rg::Index deferred_light_0 = 37;
 inline constexpr rg::Index deferred_light_1 = 38;
 inline constexpr rg::Index deferred_light_2 = 39;
@@ -675,19 +675,19 @@ inline constexpr rg::Index transparent = 45;
 inline constexpr rg::Index hologram = 46;
 inline constexpr rg::Index resolve_temporal = 47;
 inline constexpr rg::Index bloom_first = 48;
-inline constexpr rg::Index luminance_clear = 49;
-inline constexpr rg::Index bloom_down_1 = 50;
-inline constexpr rg::Index debug_view = 51;
-inline constexpr rg::Index luminance = 52;
-inline constexpr rg::Index bloom_down_2 = 53;
-inline constexpr rg::Index bloom_down_3 = 54;
-inline constexpr rg::Index bloom_down_4 = 55;
-inline constexpr rg::Index bloom_down_5 = 56;
-inline constexpr rg::Index bloom_up_1 = 57;
-inline constexpr rg::Index expose = 58;
-inline constexpr rg::Index bloom_up_2 = 59;
-inline constexpr rg::Index bloom_up_3 = 60;
-inline constexpr rg::Index bloom_up_4 = 61;
+inline constexpr rg::Index bloom_down_1 = 49;
+inline constexpr rg::Index bloom_down_2 = 50;
+inline constexpr rg::Index bloom_down_3 = 51;
+inline constexpr rg::Index bloom_down_4 = 52;
+inline constexpr rg::Index bloom_down_5 = 53;
+inline constexpr rg::Index bloom_up_1 = 54;
+inline constexpr rg::Index bloom_up_2 = 55;
+inline constexpr rg::Index luminance_clear = 56;
+inline constexpr rg::Index bloom_up_3 = 57;
+inline constexpr rg::Index luminance = 58;
+inline constexpr rg::Index bloom_up_4 = 59;
+inline constexpr rg::Index debug_view = 60;
+inline constexpr rg::Index expose = 61;
 inline constexpr rg::Index bloom_up_5 = 62;
 inline constexpr rg::Index tonemap = 63;
 }

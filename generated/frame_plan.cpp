@@ -5,25 +5,22 @@
 #include <string_view>
 
 #include "shaders/rgc_mesh_cull.comp.spv.h"
-#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
-#include "shaders/passes_geometry_lamp_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_world.vert.spv.h"
 #include "shaders/passes_geometry_depth_props.vert.spv.h"
 #include "shaders/passes_culling_depth_range_first.comp.spv.h"
 #include "shaders/passes_culling_depth_range_down.comp.spv.h"
+#include "shaders/passes_geometry_lamp_cull.comp.spv.h"
+#include "shaders/passes_geometry_sun_world.vert.spv.h"
+#include "shaders/passes_geometry_sun_props.vert.spv.h"
+#include "shaders/passes_geometry_lamp_world.vert.spv.h"
+#include "shaders/passes_fog_fog_cull.comp.spv.h"
 #include "shaders/passes_culling_zbin_build.comp.spv.h"
+#include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/passes_culling_tile_cull.comp.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_world.frag.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.vert.spv.h"
 #include "shaders/passes_geometry_gbuffer_props.frag.spv.h"
-#include "shaders/passes_fog_fog_cull.comp.spv.h"
-#include "shaders/passes_lighting_ambient_occlusion.comp.spv.h"
-#include "shaders/rgc_deferred_light_classify.comp.spv.h"
-#include "shaders/passes_culling_zbin_pack.comp.spv.h"
-#include "shaders/passes_geometry_sun_world.vert.spv.h"
-#include "shaders/passes_geometry_sun_props.vert.spv.h"
-#include "shaders/passes_culling_light_occlusion.comp.spv.h"
 #include "shaders/rgc_froxel_fog.merged.comp.spv.h"
 #include "shaders/rgc_froxel_fog.merged.comp.2.spv.h"
 #include "shaders/rgc_froxel_fog.merged.comp.3.spv.h"
@@ -32,7 +29,10 @@
 #include "shaders/rgc_froxel_fog.merged.comp.6.spv.h"
 #include "shaders/rgc_froxel_fog.merged.comp.7.spv.h"
 #include "shaders/rgc_froxel_fog.merged.comp.8.spv.h"
+#include "shaders/passes_culling_zbin_pack.comp.spv.h"
 #include "shaders/passes_culling_light_cull.comp.spv.h"
+#include "shaders/passes_lighting_ambient_occlusion.comp.spv.h"
+#include "shaders/rgc_deferred_light_classify.comp.spv.h"
 #include "shaders/passes_lighting_deferred_light.comp.spv.h"
 #include "shaders/passes_lighting_deferred_light.comp.2.spv.h"
 #include "shaders/passes_lighting_deferred_light.comp.3.spv.h"
@@ -46,10 +46,10 @@
 #include "shaders/passes_post_resolve_temporal.comp.spv.h"
 #include "shaders/passes_post_bloom_first.comp.spv.h"
 #include "shaders/passes_post_bloom_down.comp.spv.h"
-#include "shaders/passes_debug_debug_view.comp.spv.h"
+#include "shaders/passes_post_bloom_up.comp.spv.h"
 #include "shaders/passes_post_luminance.comp.spv.h"
 #include "shaders/passes_post_luminance.comp.2.spv.h"
-#include "shaders/passes_post_bloom_up.comp.spv.h"
+#include "shaders/passes_debug_debug_view.comp.spv.h"
 #include "shaders/passes_post_expose.comp.spv.h"
 #include "shaders/rgc_fullscreen.vert.spv.h"
 #include "shaders/passes_post_tonemap.frag.spv.h"
@@ -179,37 +179,37 @@ constexpr Expr kExprs[] = {
     {.op = ExprOp::ceil_div, .a = 49, .b = 103},  // 115
     {.op = ExprOp::ceil_div, .a = 51, .b = 103},  // 116
     {.op = ExprOp::ceil_div, .a = 52, .b = 103},  // 117
-    {.op = ExprOp::ceil_div, .a = 26, .b = 103},  // 118
-    {.op = ExprOp::ceil_div, .a = 27, .b = 103},  // 119
-    {.op = ExprOp::ceil_div, .a = 22, .b = 103},  // 120
-    {.op = ExprOp::ceil_div, .a = 23, .b = 103},  // 121
-    {.op = ExprOp::ceil_div, .a = 54, .b = 103},  // 122
-    {.op = ExprOp::ceil_div, .a = 55, .b = 103},  // 123
-    {.op = ExprOp::ceil_div, .a = 6, .b = 101},  // 124
-    {.op = ExprOp::ceil_div, .a = 56, .b = 101},  // 125
-    {.op = ExprOp::ceil_div, .a = 7, .b = 103},  // 126
-    {.op = ExprOp::ceil_div, .a = 8, .b = 103},  // 127
+    {.op = ExprOp::ceil_div, .a = 54, .b = 103},  // 118
+    {.op = ExprOp::ceil_div, .a = 55, .b = 103},  // 119
+    {.op = ExprOp::ceil_div, .a = 56, .b = 101},  // 120
+    {.op = ExprOp::ceil_div, .a = 7, .b = 103},  // 121
+    {.op = ExprOp::ceil_div, .a = 8, .b = 103},  // 122
+    {.op = ExprOp::ceil_div, .a = 6, .b = 101},  // 123
+    {.op = ExprOp::ceil_div, .a = 26, .b = 103},  // 124
+    {.op = ExprOp::ceil_div, .a = 27, .b = 103},  // 125
+    {.op = ExprOp::ceil_div, .a = 22, .b = 103},  // 126
+    {.op = ExprOp::ceil_div, .a = 23, .b = 103},  // 127
     {.op = ExprOp::ceil_div, .a = 1, .b = 103},  // 128
     {.op = ExprOp::ceil_div, .a = 2, .b = 103},  // 129
     {.op = ExprOp::ceil_div, .a = 57, .b = 103},  // 130
     {.op = ExprOp::ceil_div, .a = 58, .b = 103},  // 131
-    {.op = ExprOp::ceil_div, .a = 26, .b = 85},  // 132
-    {.op = ExprOp::ceil_div, .a = 27, .b = 85},  // 133
-    {.op = ExprOp::ceil_div, .a = 59, .b = 103},  // 134
-    {.op = ExprOp::ceil_div, .a = 60, .b = 103},  // 135
-    {.op = ExprOp::ceil_div, .a = 61, .b = 103},  // 136
-    {.op = ExprOp::ceil_div, .a = 62, .b = 103},  // 137
-    {.op = ExprOp::ceil_div, .a = 63, .b = 103},  // 138
-    {.op = ExprOp::ceil_div, .a = 64, .b = 103},  // 139
-    {.op = ExprOp::ceil_div, .a = 65, .b = 103},  // 140
-    {.op = ExprOp::ceil_div, .a = 66, .b = 103},  // 141
+    {.op = ExprOp::ceil_div, .a = 59, .b = 103},  // 132
+    {.op = ExprOp::ceil_div, .a = 60, .b = 103},  // 133
+    {.op = ExprOp::ceil_div, .a = 61, .b = 103},  // 134
+    {.op = ExprOp::ceil_div, .a = 62, .b = 103},  // 135
+    {.op = ExprOp::ceil_div, .a = 63, .b = 103},  // 136
+    {.op = ExprOp::ceil_div, .a = 64, .b = 103},  // 137
+    {.op = ExprOp::ceil_div, .a = 65, .b = 103},  // 138
+    {.op = ExprOp::ceil_div, .a = 66, .b = 103},  // 139
+    {.op = ExprOp::ceil_div, .a = 26, .b = 85},  // 140
+    {.op = ExprOp::ceil_div, .a = 27, .b = 85},  // 141
     {.op = ExprOp::constant, .value = 3},  // 142
     {.op = ExprOp::constant, .value = 16384},  // 143
     {.op = ExprOp::constant, .value = 32768},  // 144
-    {.op = ExprOp::constant, .value = 98304},  // 145
-    {.op = ExprOp::constant, .value = 49152},  // 146
-    {.op = ExprOp::constant, .value = 65536},  // 147
-    {.op = ExprOp::constant, .value = 81920},  // 148
+    {.op = ExprOp::constant, .value = 49152},  // 145
+    {.op = ExprOp::constant, .value = 65536},  // 146
+    {.op = ExprOp::constant, .value = 81920},  // 147
+    {.op = ExprOp::constant, .value = 98304},  // 148
     {.op = ExprOp::constant, .value = 114688},  // 149
     {.op = ExprOp::constant, .value = 12},  // 150
     {.op = ExprOp::constant, .value = 24},  // 151
@@ -248,79 +248,79 @@ constexpr Resource kResources[] = {
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 10, .estimated_bytes = 983040, .line = 20, .file = "passes.rg"},
     {.name = "world_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 86, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 196608, .line = 50, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1225984, .line = 50, .file = "passes.rg"},
     {.name = "sun_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 86, .stride = 16, .layout = 3450067896, .estimated_bytes = 16384,
-     .estimated_alignment = 256, .estimated_offset = 15557888, .line = 51, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1242368, .line = 51, .file = "passes.rg"},
     {.name = "cull_counts", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 34, .bytes = 87, .stride = 4, .layout = 1948121759,
      .estimated_bytes = 256, .line = 52, .file = "passes.rg"},
     {.name = "sun_shadow", .format = Format{126}, .width = 5, .height = 5, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 9437184,
-     .estimated_alignment = 65536, .line = 83, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 8323072, .line = 83, .file = "passes.rg"},
     {.name = "lamp_draws", .kind = ResourceKind::buffer, .usage = 288, .bytes = 88, .stride = 16, .layout = 3450067896, .estimated_bytes = 131072,
-     .estimated_alignment = 256, .line = 102, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1258752, .line = 102, .file = "passes.rg"},
     {.name = "lamp_shadow", .lifetime = Lifetime::persistent, .format = Format{126}, .width = 0, .height = 0, .layers = 8, .aspects = aspect_depth,
      .usage = 38, .init = InitKind::clear, .estimated_bytes = 2097152, .line = 103, .file = "passes.rg"},
     {.name = "scattered", .dimension = Dimension::d3, .format = Format{122}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17235968, .line = 127, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 589824, .estimated_alignment = 65536, .estimated_offset = 17760256, .line = 127, .file = "passes.rg"},
     {.name = "transmittance", .dimension = Dimension::d3, .format = Format{76}, .width = 7, .height = 8, .depth = 9, .aspects = aspect_color,
-     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 18087936, .line = 128, .file = "passes.rg"},
+     .usage = 12, .estimated_bytes = 327680, .estimated_alignment = 65536, .estimated_offset = 18350080, .line = 128, .file = "passes.rg"},
     {.name = "froxel_fog.cluster_volumes", .kind = ResourceKind::buffer, .usage = 32, .bytes = 89, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 9216, .estimated_alignment = 256, .estimated_offset = 15548416, .line = 117, .file = "passes/fog/fog.rg"},
+     .estimated_bytes = 9216, .estimated_alignment = 256, .estimated_offset = 1489408, .line = 117, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.cluster_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 90, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 15400960, .line = 118, .file = "passes/fog/fog.rg"},
+     .estimated_bytes = 147456, .estimated_alignment = 256, .estimated_offset = 1498624, .line = 118, .file = "passes/fog/fog.rg"},
     {.name = "froxel_fog.memory", .lifetime = Lifetime::history, .dimension = Dimension::d3, .format = Format{97}, .width = 7, .height = 8,
      .depth = 9, .aspects = aspect_color, .usage = 14, .copies = 2, .init = InitKind::clear,
      .init_value = {.word = {3212836864u, 3212836864u, 3212836864u, 3212836864u}}, .estimated_bytes = 1179648, .line = 122,
      .file = "passes/fog/fog.rg"},
     {.name = "depth", .format = Format{126}, .width = 1, .height = 2, .aspects = aspect_depth, .usage = 36, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 9437184, .line = 133, .file = "passes.rg"},
+     .estimated_alignment = 65536, .line = 133, .file = "passes.rg"},
     {.name = "depth_range", .format = Format{103}, .width = 18, .height = 19, .mips = 8, .aspects = aspect_color, .usage = 12,
-     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 15335424, .line = 151, .file = "passes.rg"},
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 1769472, .line = 151, .file = "passes.rg"},
     {.name = "zbin_min", .kind = ResourceKind::buffer, .usage = 34, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 131072, .line = 169, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1646080, .line = 169, .file = "passes.rg"},
     {.name = "zbin_max", .kind = ResourceKind::buffer, .usage = 34, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 163840, .line = 170, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1678848, .line = 170, .file = "passes.rg"},
     {.name = "zbins", .kind = ResourceKind::buffer, .usage = 32, .bytes = 91, .stride = 4, .layout = 1948121759, .estimated_bytes = 32768,
-     .estimated_alignment = 256, .estimated_offset = 19085568, .line = 171, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1225984, .line = 171, .file = "passes.rg"},
     {.name = "lights_seen", .kind = ResourceKind::buffer, .usage = 34, .bytes = 92, .stride = 4, .layout = 1948121759, .estimated_bytes = 256,
-     .estimated_alignment = 256, .estimated_offset = 15557632, .line = 172, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1711616, .line = 172, .file = "passes.rg"},
     {.name = "tile_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 18612224, .line = 173, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1258752, .line = 173, .file = "passes.rg"},
     {.name = "forward_lights", .kind = ResourceKind::buffer, .usage = 32, .bytes = 93, .stride = 4, .layout = 1948121759, .estimated_bytes = 230400,
-     .estimated_alignment = 256, .estimated_offset = 17857536, .line = 174, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 18874368, .line = 174, .file = "passes.rg"},
     {.name = "tile_records", .kind = ResourceKind::buffer, .usage = 32, .bytes = 95, .stride = 264, .layout = 500834187, .estimated_bytes = 242944,
-     .estimated_alignment = 256, .estimated_offset = 18842624, .line = 175, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 983040, .line = 175, .file = "passes.rg"},
     {.name = "tile_features", .kind = ResourceKind::buffer, .lifetime = Lifetime::readback, .usage = 32, .bytes = 96, .stride = 4,
      .layout = 1948121759, .estimated_bytes = 3840, .line = 176, .file = "passes.rg"},
     {.name = "tile_kernels", .format = Format{98}, .width = 22, .height = 23, .aspects = aspect_color, .usage = 8, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .estimated_offset = 18546688, .line = 177, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18677760, .line = 177, .file = "passes.rg"},
     {.name = "albedo", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 10420224, .line = 223, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 3407872, .line = 223, .file = "passes.rg"},
     {.name = "normal", .format = Format{77}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 11403264, .line = 224, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 4390912, .line = 224, .file = "passes.rg"},
     {.name = "material", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 12386304, .line = 225, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 5373952, .line = 225, .file = "passes.rg"},
     {.name = "emissive", .format = Format{122}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 13369344, .line = 226, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 6356992, .line = 226, .file = "passes.rg"},
     {.name = "velocity", .format = Format{83}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 20, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .estimated_offset = 14352384, .line = 227, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 7340032, .line = 227, .file = "passes.rg"},
     {.name = "occlusion", .format = Format{76}, .width = 26, .height = 27, .aspects = aspect_color, .usage = 12, .estimated_bytes = 131072,
-     .estimated_alignment = 65536, .estimated_offset = 18415616, .line = 259, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 18743296, .line = 259, .file = "passes.rg"},
     {.name = "hdr", .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 28, .estimated_bytes = 1900544,
-     .estimated_alignment = 65536, .estimated_offset = 15335424, .line = 260, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 1507328, .line = 260, .file = "passes.rg"},
     {.name = "debug_image", .format = Format{37}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 12, .estimated_bytes = 983040,
-     .estimated_alignment = 65536, .line = 312, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 8323072, .line = 312, .file = "passes.rg"},
     {.name = "histogram", .kind = ResourceKind::buffer, .usage = 34, .bytes = 97, .stride = 4, .layout = 1948121759, .estimated_bytes = 512,
-     .estimated_alignment = 256, .estimated_offset = 1638400, .line = 333, .file = "passes.rg"},
+     .estimated_alignment = 256, .estimated_offset = 1489152, .line = 333, .file = "passes.rg"},
     {.name = "exposure", .kind = ResourceKind::buffer, .lifetime = Lifetime::history, .usage = 34, .bytes = 98, .stride = 16, .layout = 2946367551,
      .copies = 2, .init = InitKind::clear, .estimated_bytes = 256, .line = 334, .file = "passes.rg"},
     {.name = "color", .lifetime = Lifetime::history, .format = Format{97}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 14, .copies = 2,
      .init = InitKind::clear, .estimated_bytes = 1900544, .line = 335, .file = "passes.rg"},
     {.name = "bloom", .format = Format{97}, .width = 26, .height = 27, .mips = 6, .aspects = aspect_color, .usage = 12, .estimated_bytes = 655360,
-     .estimated_alignment = 65536, .estimated_offset = 983040, .line = 336, .file = "passes.rg"},
+     .estimated_alignment = 65536, .estimated_offset = 9306112, .line = 336, .file = "passes.rg"},
     {.name = "deferred_light.arguments", .kind = ResourceKind::buffer, .usage = 290, .bytes = 99, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 256, .estimated_alignment = 256, .estimated_offset = 19118336, .line = 270, .file = "passes.rg"},
+     .estimated_bytes = 256, .estimated_alignment = 256, .estimated_offset = 1489152, .line = 270, .file = "passes.rg"},
     {.name = "deferred_light.tiles", .kind = ResourceKind::buffer, .usage = 32, .bytes = 100, .stride = 4, .layout = 1948121759,
-     .estimated_bytes = 29440, .estimated_alignment = 256, .estimated_offset = 17828096, .line = 270, .file = "passes.rg"},
+     .estimated_bytes = 29440, .estimated_alignment = 256, .estimated_offset = 19104768, .line = 270, .file = "passes.rg"},
 };
 
 constexpr Access kAccesses[] = {
@@ -332,18 +332,6 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::world_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // mesh_cull
     {.ref = {.resource = resource::sun_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
-    // lamp_cull
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
-    // lamp_shadow_world[0]
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 30, .size = 31}, .stages = stage::draw_indirect,
-     .accesses = access::indirect_command_read},  // lamp_shadow_world[0]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // depth_world
@@ -356,21 +344,68 @@ constexpr Access kAccesses[] = {
     // depth_props
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
-    // lamp_shadow_world[2]
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 31}, .stages = stage::draw_indirect,
-     .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // depth_range_first
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_first
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[6]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[6]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // lamp_cull
+    // lamp_cull
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[7]
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[7]
     {.ref = {.resource = resource::zbin_min}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
     {.ref = {.resource = resource::zbin_max}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // zbin_build.clear
+    {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
+    // sun_shadow_world
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
+    // sun_shadow_props
+    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
+    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
+    // sun_shadow_props
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[0]
+    // lamp_shadow_world[0]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 30, .size = 31}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[0]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[1]
@@ -380,23 +415,15 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 31, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[1]
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
-    // lamp_shadow_world[6]
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[2]
+    // lamp_shadow_world[2]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1},
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 31}, .stages = stage::draw_indirect,
-     .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[1]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[1]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[2]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[2]
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 32, .size = 31}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[2]
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[3]
@@ -406,15 +433,6 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 33, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[3]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[3]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[3]
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
-    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
-    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
-     .writes = true},  // zbin_build
     {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
     {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[4]
@@ -424,10 +442,51 @@ constexpr Access kAccesses[] = {
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
     {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 34, .size = 31}, .stages = stage::draw_indirect,
      .accesses = access::indirect_command_read},  // lamp_shadow_world[4]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[4]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[4]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
+    // lamp_shadow_world[5]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 31}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[6]
+    // lamp_shadow_world[6]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 36, .size = 31}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[6]
+    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
+    // lamp_shadow_world[7]
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
+     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
+    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 31}, .stages = stage::draw_indirect,
+     .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
+    // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .writes = true},  // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .writes = true},  // froxel_fog.clusters.cull
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_build
+    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read | access::shader_storage_write,
+     .writes = true},  // zbin_build
+    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
+    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
+    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // tile_cull
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // tile_cull
@@ -470,84 +529,8 @@ constexpr Access kAccesses[] = {
      .accesses = access::color_attachment_read | access::color_attachment_write, .layout = Layout::color_attachment, .writes = true},  // gbuffer_props
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read, .layout = Layout::depth_read_only},  // gbuffer_props
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[5]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[5]
     // deferred_light.reset
     {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[5]
-    // lamp_shadow_world[5]
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 35, .size = 31}, .stages = stage::draw_indirect,
-     .accesses = access::indirect_command_read},  // lamp_shadow_world[5]
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // lamp_shadow_world[7]
-    // lamp_shadow_world[7]
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::lamp_draws}, .bytes = {.offset = 37, .size = 31}, .stages = stage::draw_indirect,
-     .accesses = access::indirect_command_read},  // lamp_shadow_world[7]
-    // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .writes = true},  // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::froxel_fog_cluster_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .writes = true},  // froxel_fog.clusters.cull
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[6]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[6]
-    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // ambient_occlusion
-    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // ambient_occlusion
-    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // ambient_occlusion
-    // deferred_light.classify
-    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
-    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // deferred_light.classify
-    // deferred_light.classify
-    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
-    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light.classify
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // depth_range_down[7]
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // depth_range_down[7]
-    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
-    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
-    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // zbin_pack
-    {.ref = {.resource = resource::lights_seen}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // light_occlusion.clear
-    {.ref = {.resource = resource::scene_instances}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    {.ref = {.resource = resource::scene_vertices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    {.ref = {.resource = resource::scene_indices}, .stages = stage::vertex_shader, .accesses = access::shader_storage_read},  // sun_shadow_world
-    // sun_shadow_world
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::sun_draws}, .stages = stage::draw_indirect, .accesses = access::indirect_command_read},  // sun_shadow_world
-    // sun_shadow_props
-    {.ref = {.resource = resource::scene_props}, .stages = stage::vertex_attribute_input, .accesses = access::vertex_attribute_read},
-    {.ref = {.resource = resource::scene_prop_indices}, .stages = stage::index_input, .accesses = access::index_read},  // sun_shadow_props
-    // sun_shadow_props
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
-     .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .layout = Layout::depth_attachment, .writes = true},
-    {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_occlusion
-    {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // light_occlusion
-    {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // light_occlusion
     {.ref = {.resource = resource::scene_fog_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // froxel_fog.merged
     // froxel_fog.merged
     {.ref = {.resource = resource::froxel_fog_cluster_volumes}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
@@ -568,6 +551,9 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
     {.ref = {.resource = resource::transmittance}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // froxel_fog.merged
+    {.ref = {.resource = resource::zbin_min}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
+    {.ref = {.resource = resource::zbin_max}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // zbin_pack
+    {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // zbin_pack
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_cull
     {.ref = {.resource = resource::lights_seen}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // light_cull
     {.ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
@@ -576,6 +562,20 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::tile_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
     // light_cull
     {.ref = {.resource = resource::forward_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // ambient_occlusion
+    {.ref = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // ambient_occlusion
+    {.ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // ambient_occlusion
+    // deferred_light.classify
+    {.ref = {.resource = resource::tile_features}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},
+    {.ref = {.resource = resource::deferred_light_arguments}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // deferred_light.classify
+    // deferred_light.classify
+    {.ref = {.resource = resource::deferred_light_tiles}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},
+    {.ref = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // deferred_light.classify
     {.ref = {.resource = resource::scene_lights}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // deferred_light[0]
     {.ref = {.resource = resource::scene_albedo_maps}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // deferred_light[0]
@@ -872,11 +872,47 @@ constexpr Access kAccesses[] = {
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_first
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_first
-    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[1]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
+    {.ref = {.resource = resource::histogram}, .stages = stage::clear, .accesses = access::transfer_write, .writes = true},  // luminance.clear
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
+    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
+     .layout = Layout::shader_read_only},  // luminance
+    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
+    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only},  // debug_view
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
@@ -906,45 +942,9 @@ constexpr Access kAccesses[] = {
     {.ref = {.resource = resource::zbins}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // debug_view
     {.ref = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // debug_view
-    {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color}, .stages = stage::compute_shader, .accesses = access::shader_sampled_read,
-     .layout = Layout::shader_read_only},  // luminance
-    {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .writes = true},  // luminance
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_down[5]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_down[5]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 5}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[1]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[1]
     {.ref = {.resource = resource::histogram}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure, .age = 1}, .stages = stage::compute_shader, .accesses = access::shader_storage_read},  // expose
     {.ref = {.resource = resource::exposure}, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .writes = true},  // expose
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[2]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[3]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[4]
-    {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_read | access::shader_storage_write, .layout = Layout::general, .writes = true},  // bloom_up[4]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .stages = stage::compute_shader,
      .accesses = access::shader_sampled_read, .layout = Layout::shader_read_only},  // bloom_up[5]
     {.ref = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .stages = stage::compute_shader,
@@ -965,113 +965,113 @@ constexpr Pass kPasses[] = {
      .work = {.kind = WorkKind::transfers, .transfer_count = 1}, .line = 64, .file = "passes.rg"},
     {.name = "mesh_cull", .module = "frame", .kind = PassKind::compute, .first_access = 1, .access_count = 4, .pipeline = 0, .binding_count = 5,
      .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 29, .z = 29}, .line = 56, .file = "passes.rg"},
-    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 5, .access_count = 2, .pipeline = 1,
-     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 17, .z = 29},
+    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 5, .access_count = 5, .rendering = 0, .pipeline = 1,
+     .first_binding = 5, .binding_count = 4, .first_params = 1, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 135, .file = "passes.rg"},
+    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 10, .access_count = 3, .rendering = 0, .pipeline = 2,
+     .first_binding = 9, .binding_count = 1, .first_params = 2, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 143, .file = "passes.rg"},
+    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 13, .access_count = 2, .pipeline = 3,
+     .first_binding = 10, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 29}, .line = 153, .file = "passes.rg"},
+    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 15, .access_count = 2, .pipeline = 4,
+     .first_binding = 12, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 29}, .mip_limit_count = 1, .line = 160,
+     .file = "passes.rg"},
+    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 17, .access_count = 2, .pipeline = 5,
+     .first_binding = 14, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 108, .y = 109, .z = 29}, .first_mip_limit = 1,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 19, .access_count = 2, .pipeline = 6,
+     .first_binding = 16, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 110, .y = 111, .z = 29}, .first_mip_limit = 3,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 21, .access_count = 2, .pipeline = 7,
+     .first_binding = 18, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 112, .y = 113, .z = 29}, .first_mip_limit = 5,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 23, .access_count = 2, .pipeline = 8,
+     .first_binding = 20, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 29}, .first_mip_limit = 7,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 25, .access_count = 2, .pipeline = 9,
+     .first_binding = 22, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 116, .y = 117, .z = 29}, .first_mip_limit = 9,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "lamp_cull", .module = "frame", .kind = PassKind::compute, .guard = 1, .first_access = 27, .access_count = 2, .pipeline = 10,
+     .first_binding = 24, .binding_count = 4, .first_params = 3, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 102, .y = 17, .z = 29},
      .line = 106, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 7, .access_count = 5, .rendering = 0,
-     .pipeline = 2, .first_binding = 9, .binding_count = 4, .first_params = 3, .params_count = 1,
+    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 29, .access_count = 2, .pipeline = 11,
+     .first_binding = 28, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 29}, .first_mip_limit = 11,
+     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
+    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 31, .access_count = 2,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 179, .file = "passes.rg"},
+    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 33, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 194, .file = "passes.rg"},
+    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 34, .access_count = 5, .rendering = 1, .pipeline = 12,
+     .first_binding = 30, .binding_count = 4, .first_params = 5, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 85, .file = "passes.rg"},
+    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 39, .access_count = 3, .rendering = 1, .pipeline = 13,
+     .first_binding = 34, .binding_count = 1, .first_params = 6, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 93, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[0]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 42, .access_count = 5, .rendering = 2,
+     .pipeline = 14, .first_binding = 35, .binding_count = 4, .first_params = 7, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 30, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_world", .module = "frame", .kind = PassKind::raster, .first_access = 12, .access_count = 5, .rendering = 1, .pipeline = 3,
-     .first_binding = 13, .binding_count = 4, .first_params = 4, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 135, .file = "passes.rg"},
-    {.name = "depth_props", .module = "frame", .kind = PassKind::raster, .first_access = 17, .access_count = 3, .rendering = 1, .pipeline = 4,
-     .first_binding = 17, .binding_count = 1, .first_params = 5, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 1, .line = 143, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 20, .access_count = 5, .rendering = 2,
-     .pipeline = 5, .first_binding = 18, .binding_count = 4, .first_params = 6, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
-     .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_first", .module = "frame", .kind = PassKind::compute, .first_access = 25, .access_count = 2, .pipeline = 6,
-     .first_binding = 22, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 104, .y = 105, .z = 29}, .line = 153, .file = "passes.rg"},
-    {.name = "zbin_build.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 27, .access_count = 2,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 1, .transfer_count = 2}, .line = 179, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 29, .access_count = 5, .rendering = 3,
-     .pipeline = 7, .first_binding = 24, .binding_count = 4, .first_params = 7, .params_count = 1,
+    {.name = "lamp_shadow_world[1]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 47, .access_count = 5, .rendering = 3,
+     .pipeline = 15, .first_binding = 39, .binding_count = 4, .first_params = 8, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 31, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 34, .access_count = 5, .rendering = 4,
-     .pipeline = 8, .first_binding = 28, .binding_count = 4, .first_params = 8, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
+    {.name = "lamp_shadow_world[2]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 52, .access_count = 5, .rendering = 4,
+     .pipeline = 16, .first_binding = 43, .binding_count = 4, .first_params = 9, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 32, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 39, .access_count = 2, .pipeline = 9,
-     .first_binding = 32, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 106, .y = 107, .z = 29}, .mip_limit_count = 1, .line = 160,
-     .file = "passes.rg"},
-    {.name = "depth_range_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 41, .access_count = 2, .pipeline = 10,
-     .first_binding = 34, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 108, .y = 109, .z = 29}, .first_mip_limit = 1,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 43, .access_count = 5, .rendering = 5,
-     .pipeline = 11, .first_binding = 36, .binding_count = 4, .first_params = 9, .params_count = 1,
+    {.name = "lamp_shadow_world[3]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 57, .access_count = 5, .rendering = 5,
+     .pipeline = 17, .first_binding = 47, .binding_count = 4, .first_params = 10, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 33, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 48, .access_count = 2, .pipeline = 12,
-     .first_binding = 40, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 110, .y = 111, .z = 29}, .first_mip_limit = 3,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 50, .access_count = 3, .pipeline = 13, .first_binding = 42,
-     .binding_count = 4, .first_params = 10, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 56, .y = 29, .z = 29}, .line = 179,
-     .file = "passes.rg"},
-    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 53, .access_count = 5, .rendering = 6,
-     .pipeline = 14, .first_binding = 46, .binding_count = 4, .first_params = 11, .params_count = 1,
+    {.name = "lamp_shadow_world[4]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 62, .access_count = 5, .rendering = 6,
+     .pipeline = 18, .first_binding = 51, .binding_count = 4, .first_params = 11, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 34, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "depth_range_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 58, .access_count = 2, .pipeline = 15,
-     .first_binding = 50, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 112, .y = 113, .z = 29}, .first_mip_limit = 5,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 60, .access_count = 4, .pipeline = 16, .first_binding = 52,
-     .binding_count = 5, .first_params = 12, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 22, .y = 23, .z = 29}, .line = 212,
-     .file = "passes.rg"},
-    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 64, .access_count = 13, .rendering = 7, .pipeline = 17,
-     .first_binding = 57, .binding_count = 7, .first_params = 13, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 229, .file = "passes.rg"},
-    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 77, .access_count = 8, .rendering = 7, .pipeline = 18,
-     .first_binding = 64, .binding_count = 1, .first_params = 14, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 245, .file = "passes.rg"},
-    {.name = "depth_range_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 85, .access_count = 2, .pipeline = 19,
-     .first_binding = 65, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 114, .y = 115, .z = 29}, .first_mip_limit = 7,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 87, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 3, .transfer_count = 1}, .line = 270, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 88, .access_count = 5, .rendering = 8,
-     .pipeline = 20, .first_binding = 67, .binding_count = 4, .first_params = 15, .params_count = 1,
+    {.name = "lamp_shadow_world[5]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 67, .access_count = 5, .rendering = 7,
+     .pipeline = 19, .first_binding = 55, .binding_count = 4, .first_params = 12, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 35, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 93, .access_count = 5, .rendering = 9,
-     .pipeline = 21, .first_binding = 71, .binding_count = 4, .first_params = 16, .params_count = 1,
+    {.name = "lamp_shadow_world[6]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 72, .access_count = 5, .rendering = 8,
+     .pipeline = 20, .first_binding = 59, .binding_count = 4, .first_params = 13, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 36, .max_draws = 1024},
+     .line = 115, .file = "passes.rg"},
+    {.name = "lamp_shadow_world[7]", .module = "frame", .kind = PassKind::raster, .guard = 1, .first_access = 77, .access_count = 5, .rendering = 9,
+     .pipeline = 21, .first_binding = 63, .binding_count = 4, .first_params = 14, .params_count = 1,
      .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::lamp_draws}, .arguments_offset = 37, .max_draws = 1024},
      .line = 115, .file = "passes.rg"},
-    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 98, .access_count = 4, .pipeline = 22,
-     .first_binding = 75, .binding_count = 6, .first_params = 17, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
+    {.name = "froxel_fog.clusters.cull", .module = "fog", .kind = PassKind::compute, .first_access = 82, .access_count = 4, .pipeline = 22,
+     .first_binding = 67, .binding_count = 6, .first_params = 15, .params_count = 2, .work = {.kind = WorkKind::dispatch, .x = 10, .y = 11, .z = 12},
      .line = 38, .file = "passes/fog/fog.rg"},
-    {.name = "depth_range_down[6]", .module = "frame", .kind = PassKind::compute, .first_access = 102, .access_count = 2, .pipeline = 23,
-     .first_binding = 81, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 116, .y = 117, .z = 29}, .first_mip_limit = 9,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 104, .access_count = 3, .pipeline = 24,
-     .first_binding = 83, .binding_count = 4, .first_params = 19, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 29}, .line = 262, .file = "passes.rg"},
-    {.name = "deferred_light.classify", .module = "frame", .kind = PassKind::compute, .first_access = 107, .access_count = 4, .pipeline = 25,
-     .first_binding = 87, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 121, .z = 29}, .line = 270, .file = "passes.rg"},
-    {.name = "depth_range_down[7]", .module = "frame", .kind = PassKind::compute, .first_access = 111, .access_count = 2, .pipeline = 26,
-     .first_binding = 91, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 122, .y = 123, .z = 29}, .first_mip_limit = 11,
-     .mip_limit_count = 2, .line = 160, .file = "passes.rg"},
-    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 113, .access_count = 3, .pipeline = 27, .first_binding = 93,
-     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 29, .z = 29}, .line = 187, .file = "passes.rg"},
-    {.name = "light_occlusion.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 116, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 194, .file = "passes.rg"},
-    {.name = "sun_shadow_world", .module = "frame", .kind = PassKind::raster, .first_access = 117, .access_count = 5, .rendering = 10, .pipeline = 28,
-     .first_binding = 96, .binding_count = 4, .first_params = 20, .params_count = 1,
-     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::sun_draws}, .max_draws = 1024}, .line = 85, .file = "passes.rg"},
-    {.name = "sun_shadow_props", .module = "frame", .kind = PassKind::raster, .first_access = 122, .access_count = 3, .rendering = 10, .pipeline = 29,
-     .first_binding = 100, .binding_count = 1, .first_params = 21, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
-     .work = {.kind = WorkKind::host}, .host_slot = 0, .line = 93, .file = "passes.rg"},
-    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 125, .access_count = 3, .pipeline = 30,
-     .first_binding = 101, .binding_count = 4, .first_params = 22, .params_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 125, .y = 29, .z = 29}, .line = 194, .file = "passes.rg"},
-    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 128, .access_count = 11, .pipeline = 31,
-     .first_binding = 105, .binding_count = 13, .first_params = 23, .params_count = 2, .choice_count = 8, .feature_count = 3,
-     .work = {.kind = WorkKind::dispatch, .x = 126, .y = 127, .z = 29}, .line = 125, .file = "passes/fog/fog.rg"},
-    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 139, .access_count = 5, .pipeline = 39, .first_binding = 118,
-     .binding_count = 6, .first_params = 25, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 18, .y = 19, .z = 29}, .line = 202,
+    {.name = "zbin_build", .module = "frame", .kind = PassKind::compute, .first_access = 86, .access_count = 3, .pipeline = 23, .first_binding = 73,
+     .binding_count = 4, .first_params = 17, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 56, .y = 29, .z = 29}, .line = 179,
      .file = "passes.rg"},
+    {.name = "light_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 89, .access_count = 3, .pipeline = 24,
+     .first_binding = 77, .binding_count = 4, .first_params = 18, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 120, .y = 29, .z = 29},
+     .line = 194, .file = "passes.rg"},
+    {.name = "tile_cull", .module = "frame", .kind = PassKind::compute, .first_access = 92, .access_count = 4, .pipeline = 25, .first_binding = 81,
+     .binding_count = 5, .first_params = 19, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 22, .y = 23, .z = 29}, .line = 212,
+     .file = "passes.rg"},
+    {.name = "gbuffer_world", .module = "frame", .kind = PassKind::raster, .first_access = 96, .access_count = 13, .rendering = 10, .pipeline = 26,
+     .first_binding = 86, .binding_count = 7, .first_params = 20, .params_count = 1,
+     .work = {.kind = WorkKind::draw_indirect, .arguments = {.resource = resource::world_draws}, .max_draws = 1024}, .line = 229, .file = "passes.rg"},
+    {.name = "gbuffer_props", .module = "frame", .kind = PassKind::raster, .first_access = 109, .access_count = 8, .rendering = 10, .pipeline = 27,
+     .first_binding = 93, .binding_count = 1, .first_params = 21, .params_count = 1, .push_bytes = 128, .push_stages = 1, .push_layout = 1802615666,
+     .work = {.kind = WorkKind::host}, .host_slot = 2, .line = 245, .file = "passes.rg"},
+    {.name = "deferred_light.reset", .module = "frame", .kind = PassKind::transfer, .first_access = 117, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 4, .transfer_count = 1}, .line = 270, .file = "passes.rg"},
+    {.name = "froxel_fog.merged", .module = "fog", .kind = PassKind::compute, .first_access = 118, .access_count = 11, .pipeline = 28,
+     .first_binding = 94, .binding_count = 13, .first_params = 22, .params_count = 2, .choice_count = 8, .feature_count = 3,
+     .work = {.kind = WorkKind::dispatch, .x = 121, .y = 122, .z = 29}, .line = 125, .file = "passes/fog/fog.rg"},
+    {.name = "zbin_pack", .module = "frame", .kind = PassKind::compute, .first_access = 129, .access_count = 3, .pipeline = 36, .first_binding = 107,
+     .binding_count = 3, .work = {.kind = WorkKind::dispatch, .x = 123, .y = 29, .z = 29}, .line = 187, .file = "passes.rg"},
+    {.name = "light_cull", .module = "frame", .kind = PassKind::compute, .first_access = 132, .access_count = 5, .pipeline = 37, .first_binding = 110,
+     .binding_count = 6, .first_params = 24, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 18, .y = 19, .z = 29}, .line = 202,
+     .file = "passes.rg"},
+    {.name = "ambient_occlusion", .module = "frame", .kind = PassKind::compute, .first_access = 137, .access_count = 3, .pipeline = 38,
+     .first_binding = 116, .binding_count = 4, .first_params = 25, .params_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .line = 262, .file = "passes.rg"},
+    {.name = "deferred_light.classify", .module = "frame", .kind = PassKind::compute, .first_access = 140, .access_count = 4, .pipeline = 39,
+     .first_binding = 120, .binding_count = 4, .work = {.kind = WorkKind::dispatch, .x = 126, .y = 127, .z = 29}, .line = 270, .file = "passes.rg"},
     {.name = "deferred_light[0]", .module = "frame", .kind = PassKind::compute, .first_access = 144, .access_count = 18, .pipeline = 40,
      .first_binding = 124, .binding_count = 19, .first_params = 26, .params_count = 2,
      .work = {.kind = WorkKind::dispatch_indirect, .arguments = {.resource = resource::deferred_light_arguments}, .arguments_offset = 30},
@@ -1114,47 +1114,47 @@ constexpr Pass kPasses[] = {
      .first_binding = 290, .binding_count = 6, .first_params = 44, .params_count = 1,
      .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 29}, .line = 353, .file = "passes.rg"},
     {.name = "bloom_first", .module = "frame", .kind = PassKind::compute, .first_access = 309, .access_count = 2, .pipeline = 50,
-     .first_binding = 296, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 29}, .line = 363, .file = "passes.rg"},
-    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 311, .access_count = 1,
-     .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 338, .file = "passes.rg"},
-    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 312, .access_count = 2, .pipeline = 51,
+     .first_binding = 296, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .line = 363, .file = "passes.rg"},
+    {.name = "bloom_down[1]", .module = "frame", .kind = PassKind::compute, .first_access = 311, .access_count = 2, .pipeline = 51,
      .first_binding = 298, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 29}, .first_mip_limit = 13,
      .mip_limit_count = 1, .line = 370, .file = "passes.rg"},
-    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 314, .access_count = 17, .pipeline = 52,
-     .first_binding = 300, .binding_count = 19, .first_params = 45, .params_count = 2,
-     .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 29}, .line = 313, .file = "passes.rg"},
-    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 331, .access_count = 2, .pipeline = 53, .first_binding = 319,
-     .binding_count = 2, .first_choice = 8, .choice_count = 2, .first_feature = 3, .feature_count = 1,
-     .work = {.kind = WorkKind::dispatch, .x = 132, .y = 133, .z = 29}, .line = 338, .file = "passes.rg"},
-    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 333, .access_count = 2, .pipeline = 55,
-     .first_binding = 321, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 14,
+    {.name = "bloom_down[2]", .module = "frame", .kind = PassKind::compute, .first_access = 313, .access_count = 2, .pipeline = 52,
+     .first_binding = 300, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 132, .y = 133, .z = 29}, .first_mip_limit = 14,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 335, .access_count = 2, .pipeline = 56,
-     .first_binding = 323, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 16,
+    {.name = "bloom_down[3]", .module = "frame", .kind = PassKind::compute, .first_access = 315, .access_count = 2, .pipeline = 53,
+     .first_binding = 302, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 16,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 337, .access_count = 2, .pipeline = 57,
-     .first_binding = 325, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 138, .y = 139, .z = 29}, .first_mip_limit = 18,
+    {.name = "bloom_down[4]", .module = "frame", .kind = PassKind::compute, .first_access = 317, .access_count = 2, .pipeline = 54,
+     .first_binding = 304, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 18,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 339, .access_count = 2, .pipeline = 58,
-     .first_binding = 327, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 140, .y = 141, .z = 29}, .first_mip_limit = 20,
+    {.name = "bloom_down[5]", .module = "frame", .kind = PassKind::compute, .first_access = 319, .access_count = 2, .pipeline = 55,
+     .first_binding = 306, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 138, .y = 139, .z = 29}, .first_mip_limit = 20,
      .mip_limit_count = 2, .line = 370, .file = "passes.rg"},
-    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 341, .access_count = 2, .pipeline = 59,
-     .first_binding = 329, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 138, .y = 139, .z = 29}, .first_mip_limit = 22,
+    {.name = "bloom_up[1]", .module = "frame", .kind = PassKind::compute, .first_access = 321, .access_count = 2, .pipeline = 56,
+     .first_binding = 308, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 22,
      .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 343, .access_count = 3, .pipeline = 60, .first_binding = 331,
+    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 323, .access_count = 2, .pipeline = 57,
+     .first_binding = 310, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 24,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "luminance.clear", .module = "frame", .kind = PassKind::transfer, .first_access = 325, .access_count = 1,
+     .work = {.kind = WorkKind::transfers, .first_transfer = 5, .transfer_count = 1}, .line = 338, .file = "passes.rg"},
+    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 326, .access_count = 2, .pipeline = 58,
+     .first_binding = 312, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 132, .y = 133, .z = 29}, .first_mip_limit = 26,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "luminance", .module = "frame", .kind = PassKind::compute, .first_access = 328, .access_count = 2, .pipeline = 59, .first_binding = 314,
+     .binding_count = 2, .first_choice = 8, .choice_count = 2, .first_feature = 3, .feature_count = 1,
+     .work = {.kind = WorkKind::dispatch, .x = 140, .y = 141, .z = 29}, .line = 338, .file = "passes.rg"},
+    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 330, .access_count = 2, .pipeline = 61,
+     .first_binding = 316, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 29}, .first_mip_limit = 28,
+     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
+    {.name = "debug_view", .module = "frame", .kind = PassKind::compute, .first_access = 332, .access_count = 17, .pipeline = 62,
+     .first_binding = 318, .binding_count = 19, .first_params = 45, .params_count = 2,
+     .work = {.kind = WorkKind::dispatch, .x = 128, .y = 129, .z = 29}, .line = 313, .file = "passes.rg"},
+    {.name = "expose", .module = "frame", .kind = PassKind::compute, .first_access = 349, .access_count = 3, .pipeline = 63, .first_binding = 337,
      .binding_count = 4, .first_params = 47, .params_count = 1, .work = {.kind = WorkKind::dispatch, .x = 29, .y = 29, .z = 29}, .line = 345,
      .file = "passes.rg"},
-    {.name = "bloom_up[2]", .module = "frame", .kind = PassKind::compute, .first_access = 346, .access_count = 2, .pipeline = 61,
-     .first_binding = 335, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 136, .y = 137, .z = 29}, .first_mip_limit = 24,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "bloom_up[3]", .module = "frame", .kind = PassKind::compute, .first_access = 348, .access_count = 2, .pipeline = 62,
-     .first_binding = 337, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 134, .y = 135, .z = 29}, .first_mip_limit = 26,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
-    {.name = "bloom_up[4]", .module = "frame", .kind = PassKind::compute, .first_access = 350, .access_count = 2, .pipeline = 63,
-     .first_binding = 339, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 130, .y = 131, .z = 29}, .first_mip_limit = 28,
-     .mip_limit_count = 2, .line = 378, .file = "passes.rg"},
     {.name = "bloom_up[5]", .module = "frame", .kind = PassKind::compute, .first_access = 352, .access_count = 2, .pipeline = 64,
-     .first_binding = 341, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 118, .y = 119, .z = 29}, .first_mip_limit = 30,
+     .first_binding = 341, .binding_count = 2, .work = {.kind = WorkKind::dispatch, .x = 124, .y = 125, .z = 29}, .first_mip_limit = 30,
      .mip_limit_count = 1, .line = 378, .file = "passes.rg"},
     {.name = "tonemap", .module = "frame", .kind = PassKind::raster, .first_access = 354, .access_count = 5, .rendering = 12, .pipeline = 65,
      .first_binding = 343, .binding_count = 5, .first_params = 48, .params_count = 1, .work = {.kind = WorkKind::draw, .x = 142}, .line = 385,
@@ -1196,18 +1196,10 @@ constexpr MipLimit kMipLimits[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
-     .src_stages = stage::fragment_shader | stage::compute_shader, .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth}, .src_stages = stage::late_fragment_tests | stage::compute_shader,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::depth_attachment},  // frame start -> depth_world
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 2, .layers = 1}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[0] -> lamp_shadow_world[2]
     {.image = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests | stage::compute_shader,
@@ -1216,34 +1208,38 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
      .new_layout = Layout::general},  // frame start -> depth_range_first
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 1, .layers = 1}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[2] -> lamp_shadow_world[1]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 6, .layers = 1}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[2] -> lamp_shadow_world[1]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_first -> depth_range_down[1]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[1] -> depth_range_down[2]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 3, .layers = 1}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[6] -> lamp_shadow_world[3]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[2] -> depth_range_down[3]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 4, .layers = 1}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[3] -> lamp_shadow_world[4]
     {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[3] -> depth_range_down[4]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[5] -> depth_range_down[6]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
+    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
+    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
+     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
+     .new_layout = Layout::depth_attachment},  // frame start -> lamp_shadow_world[0]
+    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
     {.image = {.resource = resource::albedo}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
@@ -1259,39 +1255,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::velocity}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::color_attachment},  // frame start -> gbuffer_world
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[4] -> depth_range_down[5]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 5, .layers = 1}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.image = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layer = 7}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::depth_read_only,
-     .new_layout = Layout::depth_attachment},  // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[5] -> depth_range_down[6]
-    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> deferred_light.classify
-    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
-     .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> ambient_occlusion
-    {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> ambient_occlusion
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[6] -> depth_range_down[7]
-    {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth}, .src_stages = stage::compute_shader,
-     .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::depth_attachment},  // frame start -> sun_shadow_world
-    {.image = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mip = 7}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
-     .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // depth_range_down[7] -> light_occlusion
     {.image = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_sampled_read,
@@ -1312,6 +1275,15 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::froxel_fog_memory, .age = 1}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // frame start -> froxel_fog.merged
+    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> deferred_light.classify
+    {.image = {.resource = resource::normal}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
+     .src_accesses = access::color_attachment_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
+     .old_layout = Layout::color_attachment, .new_layout = Layout::shader_read_only},  // gbuffer_props -> ambient_occlusion
+    {.image = {.resource = resource::occlusion}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> ambient_occlusion
     // froxel_fog.merged -> deferred_light[0]
     {.image = {.resource = resource::scattered}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::fragment_shader | stage::compute_shader,
@@ -1361,12 +1333,6 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_first -> bloom_down[1]
-    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read,
-     .old_layout = Layout::general, .new_layout = Layout::general},  // deferred_light.classify -> debug_view
-    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_down[1] -> bloom_down[2]
@@ -1403,6 +1369,12 @@ constexpr ImageBarrier kImageBarriers[] = {
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .src_stages = stage::compute_shader,
      .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_sampled_read,
      .old_layout = Layout::general, .new_layout = Layout::shader_read_only},  // bloom_up[3] -> bloom_up[4]
+    {.image = {.resource = resource::tile_kernels}, .range = {.aspects = aspect_color}, .src_stages = stage::compute_shader,
+     .src_accesses = access::shader_storage_write, .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read,
+     .old_layout = Layout::general, .new_layout = Layout::general},  // deferred_light.classify -> debug_view
+    {.image = {.resource = resource::debug_image}, .range = {.aspects = aspect_color}, .src_stages = stage::fragment_shader,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::general},  // frame start -> debug_view
     {.image = {.resource = resource::bloom}, .range = {.aspects = aspect_color, .mips = 1}, .src_stages = stage::compute_shader,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write,
      .old_layout = Layout::shader_read_only, .new_layout = Layout::general},  // bloom_up[4] -> bloom_up[5]
@@ -1424,56 +1396,27 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BufferBarrier kBufferBarriers[] = {
+    // frame start -> mesh_cull
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader},
     // mesh_cull_world.clear -> mesh_cull
     {.buffer = {.resource = resource::cull_counts}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
-    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
-     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
     {.buffer = {.resource = resource::world_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> depth_world
-    // lamp_cull -> lamp_shadow_world[0]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[0] -> lamp_shadow_world[2]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 144, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    {.buffer = {.resource = resource::zbin_max}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},  // frame start -> zbin_build.clear
-    // lamp_shadow_world[2] -> lamp_shadow_world[1]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 143, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[2] -> lamp_shadow_world[1]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 145, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[6] -> lamp_shadow_world[3]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 146, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::draw_indirect, .dst_stages = stage::compute_shader,
+     .dst_accesses = access::shader_storage_write},  // frame start -> lamp_cull
+    // frame start -> light_occlusion.clear
+    {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .dst_stages = stage::clear},
+    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
+    {.buffer = {.resource = resource::lamp_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // lamp_cull -> lamp_shadow_world[0]
     // zbin_build.clear -> zbin_build
     {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
     // zbin_build.clear -> zbin_build
     {.buffer = {.resource = resource::zbin_max}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
-    // lamp_shadow_world[3] -> lamp_shadow_world[4]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 147, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 148, .size = 143}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // lamp_shadow_world[4] -> lamp_shadow_world[5]
-    {.buffer = {.resource = resource::lamp_draws}, .bytes = {.offset = 149}, .src_stages = stage::compute_shader,
-     .src_accesses = access::shader_storage_write, .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},
-    // tile_cull -> deferred_light.classify
-    {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader | stage::host, .dst_accesses = access::shader_storage_read | access::host_read},
-    // deferred_light.reset -> deferred_light.classify
-    {.buffer = {.resource = resource::deferred_light_arguments}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
-    {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
-    {.buffer = {.resource = resource::zbin_max}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
-    {.buffer = {.resource = resource::sun_draws}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
-     .dst_stages = stage::draw_indirect, .dst_accesses = access::indirect_command_read},  // mesh_cull -> sun_shadow_world
     // light_occlusion.clear -> light_occlusion
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
@@ -1481,8 +1424,18 @@ constexpr BufferBarrier kBufferBarriers[] = {
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
     {.buffer = {.resource = resource::froxel_fog_cluster_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // froxel_fog.clusters.cull -> froxel_fog.merged
+    {.buffer = {.resource = resource::zbin_min}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
+    {.buffer = {.resource = resource::zbin_max}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_build -> zbin_pack
     {.buffer = {.resource = resource::lights_seen}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read},  // light_occlusion -> light_cull
+    // tile_cull -> deferred_light.classify
+    {.buffer = {.resource = resource::tile_features}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
+     .dst_stages = stage::compute_shader | stage::host, .dst_accesses = access::shader_storage_read | access::host_read},
+    // deferred_light.reset -> deferred_light.classify
+    {.buffer = {.resource = resource::deferred_light_arguments}, .src_stages = stage::clear, .src_accesses = access::transfer_write,
+     .dst_stages = stage::compute_shader, .dst_accesses = access::shader_storage_read | access::shader_storage_write},
     {.buffer = {.resource = resource::zbins}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
      .dst_stages = stage::fragment_shader | stage::compute_shader, .dst_accesses = access::shader_storage_read},  // zbin_pack -> deferred_light[0]
     {.buffer = {.resource = resource::tile_lights}, .src_stages = stage::compute_shader, .src_accesses = access::shader_storage_write,
@@ -1508,33 +1461,33 @@ constexpr BufferBarrier kBufferBarriers[] = {
 constexpr BarrierGroup kGroups[] = {
     {},  // before mesh_cull_world.clear  passes.rg:64
     {.buffer_count = 2},  // before mesh_cull  passes.rg:56
-    {.image_count = 2, .first_buffer = 2, .buffer_count = 2},  // before lamp_shadow_world[0]  passes.rg:115
-    {.first_image = 2, .image_count = 3, .first_buffer = 4, .buffer_count = 2},  // before lamp_shadow_world[2]  passes.rg:115
-    {.first_image = 5, .image_count = 3, .first_buffer = 6, .buffer_count = 2},  // before lamp_shadow_world[1]  passes.rg:115
-    {.first_image = 8, .image_count = 1},  // before depth_range_down[2]  passes.rg:160
-    {.first_image = 9, .image_count = 2, .first_buffer = 8, .buffer_count = 3},  // before lamp_shadow_world[3]  passes.rg:115
-    {.first_image = 11, .image_count = 7, .first_buffer = 11, .buffer_count = 1},  // before lamp_shadow_world[4]  passes.rg:115
-    {.first_image = 18, .image_count = 1},  // before depth_range_down[5]  passes.rg:160
-    {.first_image = 19, .image_count = 6, .first_buffer = 12, .buffer_count = 4},  // before lamp_shadow_world[5]  passes.rg:115
-    {.first_image = 25, .image_count = 1, .first_buffer = 16, .buffer_count = 2},  // before depth_range_down[7]  passes.rg:160
-    {.first_image = 26, .image_count = 2, .first_buffer = 18, .buffer_count = 2},  // before sun_shadow_world  passes.rg:85
-    {.first_image = 28, .image_count = 6, .first_buffer = 20, .buffer_count = 3},  // before froxel_fog.merged  passes/fog/fog.rg:125
-    {.first_image = 34, .image_count = 7, .first_buffer = 23, .buffer_count = 5},  // before deferred_light[0]  passes.rg:270
-    {.first_image = 41, .image_count = 1, .first_buffer = 28, .buffer_count = 1},  // before transparent  passes.rg:287
-    {.first_image = 42, .image_count = 3},  // before resolve_temporal  passes.rg:353
-    {.first_image = 45, .image_count = 3},  // before bloom_first  passes.rg:363
-    {.first_image = 48, .image_count = 1},  // before luminance.clear  passes.rg:338
-    {.first_image = 49, .image_count = 3, .first_buffer = 29, .buffer_count = 1},  // before debug_view  passes.rg:313
-    {.first_image = 52, .image_count = 1},  // before bloom_down[3]  passes.rg:370
-    {.first_image = 53, .image_count = 1},  // before bloom_down[4]  passes.rg:370
-    {.first_image = 54, .image_count = 1},  // before bloom_down[5]  passes.rg:370
-    {.first_image = 55, .image_count = 2},  // before bloom_up[1]  passes.rg:378
-    {.first_image = 57, .image_count = 2, .first_buffer = 30, .buffer_count = 1},  // before expose  passes.rg:345
-    {.first_image = 59, .image_count = 2},  // before bloom_up[3]  passes.rg:378
-    {.first_image = 61, .image_count = 2},  // before bloom_up[4]  passes.rg:378
-    {.first_image = 63, .image_count = 2},  // before bloom_up[5]  passes.rg:378
-    {.first_image = 65, .image_count = 3, .first_buffer = 31, .buffer_count = 1},  // before tonemap  passes.rg:385
-    {.first_image = 68, .image_count = 1, .first_buffer = 32, .buffer_count = 1},  // at the end of the frame
+    {.image_count = 1, .first_buffer = 2, .buffer_count = 1},  // before depth_world  passes.rg:135
+    {.first_image = 1, .image_count = 2},  // before depth_range_first  passes.rg:153
+    {.first_image = 3, .image_count = 1},  // before depth_range_down[1]  passes.rg:160
+    {.first_image = 4, .image_count = 1},  // before depth_range_down[2]  passes.rg:160
+    {.first_image = 5, .image_count = 1},  // before depth_range_down[3]  passes.rg:160
+    {.first_image = 6, .image_count = 1},  // before depth_range_down[4]  passes.rg:160
+    {.first_image = 7, .image_count = 1},  // before depth_range_down[5]  passes.rg:160
+    {.first_image = 8, .image_count = 1},  // before depth_range_down[6]  passes.rg:160
+    {.first_image = 9, .image_count = 1, .first_buffer = 3, .buffer_count = 2},  // before lamp_cull  passes.rg:106
+    {.first_image = 10, .image_count = 8, .first_buffer = 5, .buffer_count = 5},  // before sun_shadow_world  passes.rg:85
+    {.first_image = 18, .image_count = 9, .first_buffer = 10, .buffer_count = 7},  // before froxel_fog.merged  passes/fog/fog.rg:125
+    {.first_image = 27, .image_count = 7, .first_buffer = 17, .buffer_count = 5},  // before deferred_light[0]  passes.rg:270
+    {.first_image = 34, .image_count = 1, .first_buffer = 22, .buffer_count = 1},  // before transparent  passes.rg:287
+    {.first_image = 35, .image_count = 3},  // before resolve_temporal  passes.rg:353
+    {.first_image = 38, .image_count = 3},  // before bloom_first  passes.rg:363
+    {.first_image = 41, .image_count = 1},  // before bloom_down[1]  passes.rg:370
+    {.first_image = 42, .image_count = 1},  // before bloom_down[2]  passes.rg:370
+    {.first_image = 43, .image_count = 1},  // before bloom_down[3]  passes.rg:370
+    {.first_image = 44, .image_count = 1},  // before bloom_down[4]  passes.rg:370
+    {.first_image = 45, .image_count = 1},  // before bloom_down[5]  passes.rg:370
+    {.first_image = 46, .image_count = 2},  // before bloom_up[1]  passes.rg:378
+    {.first_image = 48, .image_count = 2},  // before bloom_up[2]  passes.rg:378
+    {.first_image = 50, .image_count = 2},  // before luminance.clear  passes.rg:338
+    {.first_image = 52, .image_count = 2, .first_buffer = 23, .buffer_count = 1},  // before luminance  passes.rg:338
+    {.first_image = 54, .image_count = 4, .first_buffer = 24, .buffer_count = 1},  // before debug_view  passes.rg:313
+    {.first_image = 58, .image_count = 3, .first_buffer = 25, .buffer_count = 1},  // before tonemap  passes.rg:385
+    {.first_image = 61, .image_count = 1, .first_buffer = 26, .buffer_count = 1},  // at the end of the frame
 };
 
 constexpr Boundary kEntry[] = {
@@ -1561,10 +1514,10 @@ constexpr Boundary kEntry[] = {
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 143, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 143}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
@@ -1688,10 +1641,10 @@ constexpr Boundary kExit[] = {
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 143, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 144, .size = 143}},
+    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 146, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 147, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 148, .size = 143}},
-    {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 145, .size = 143}},
     {.ref = {.resource = resource::lamp_draws}, .stages = stage::draw_indirect, .queue = 0, .discard = true, .bytes = {.offset = 149}},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .layers = 1},
      .stages = stage::fragment_shader | stage::compute_shader, .accesses = access::shader_sampled_read, .layout = Layout::depth_read_only, .queue = 0},
@@ -1806,100 +1759,100 @@ constexpr Acquire kAcquires[] = {
      .first_clock = 0},
     {.resource = resource::sun_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
      .first_clock = 2},
-    {.resource = resource::sun_shadow, .group = 11, .image_barrier = 26, .image_barriers = 1,
+    {.resource = resource::sun_shadow, .group = 11, .image_barrier = 10, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 11, .first_clock = 42},
-    {.resource = resource::lamp_draws, .group = 1, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 1,
-     .first_clock = 4},
-    {.resource = resource::scattered, .group = 12, .image_barrier = 30, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 12, .first_clock = 44},
-    {.resource = resource::transmittance, .group = 12, .image_barrier = 31, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 12, .first_clock = 46},
-    {.resource = resource::froxel_fog_cluster_volumes, .group = 9, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 9, .first_clock = 28},
-    {.resource = resource::froxel_fog_cluster_lights, .group = 9, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
-     .point = 9, .first_clock = 30},
-    {.resource = resource::depth, .group = 2, .image_barrier = 1, .image_barriers = 1,
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 11, .first_clock = 16},
+    {.resource = resource::lamp_draws, .group = 10, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 10,
+     .first_clock = 8},
+    {.resource = resource::scattered, .group = 12, .image_barrier = 20, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 36},
+    {.resource = resource::transmittance, .group = 12, .image_barrier = 21, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 38},
+    {.resource = resource::froxel_fog_cluster_volumes, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 11, .first_clock = 18},
+    {.resource = resource::froxel_fog_cluster_lights, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write,
+     .point = 11, .first_clock = 20},
+    {.resource = resource::depth, .group = 2, .image_barrier = 0, .image_barriers = 1,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
-     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 6},
-    {.resource = resource::depth_range, .group = 3, .image_barrier = 4, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 3, .first_clock = 8},
-    {.resource = resource::zbin_min, .group = 3, .stages = stage::clear, .accesses = access::transfer_write, .point = 3, .first_clock = 10},
-    {.resource = resource::zbin_max, .group = 3, .stages = stage::clear, .accesses = access::transfer_write, .point = 3, .first_clock = 12},
-    {.resource = resource::zbins, .group = 10, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 10,
-     .first_clock = 38},
-    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 40},
+     .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .point = 2, .first_clock = 4},
+    {.resource = resource::depth_range, .group = 3, .image_barrier = 2, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 3, .first_clock = 6},
+    {.resource = resource::zbin_min, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 10},
+    {.resource = resource::zbin_max, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 12},
+    {.resource = resource::zbins, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+     .first_clock = 40},
+    {.resource = resource::lights_seen, .group = 10, .stages = stage::clear, .accesses = access::transfer_write, .point = 10, .first_clock = 14},
     {.resource = resource::tile_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
-     .first_clock = 48},
+     .first_clock = 42},
     {.resource = resource::forward_lights, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
-     .first_clock = 50},
-    {.resource = resource::tile_records, .group = 7, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 7,
-     .first_clock = 14},
-    {.resource = resource::tile_kernels, .group = 9, .image_barrier = 22, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 32},
-    {.resource = resource::albedo, .group = 7, .image_barrier = 13, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 7, .first_clock = 16},
-    {.resource = resource::normal, .group = 7, .image_barrier = 14, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 7, .first_clock = 18},
-    {.resource = resource::material, .group = 7, .image_barrier = 15, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 7, .first_clock = 20},
-    {.resource = resource::emissive, .group = 7, .image_barrier = 16, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 7, .first_clock = 22},
-    {.resource = resource::velocity, .group = 7, .image_barrier = 17, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .point = 7, .first_clock = 24},
-    {.resource = resource::occlusion, .group = 9, .image_barrier = 24, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 9, .first_clock = 34},
-    {.resource = resource::hdr, .group = 13, .image_barrier = 40, .image_barriers = 1, .stages = stage::compute_shader,
+     .first_clock = 44},
+    {.resource = resource::tile_records, .group = 11, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 11,
+     .first_clock = 22},
+    {.resource = resource::tile_kernels, .group = 12, .image_barrier = 24, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 46},
+    {.resource = resource::albedo, .group = 11, .image_barrier = 13, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 24},
+    {.resource = resource::normal, .group = 11, .image_barrier = 14, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 26},
+    {.resource = resource::material, .group = 11, .image_barrier = 15, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 28},
+    {.resource = resource::emissive, .group = 11, .image_barrier = 16, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 30},
+    {.resource = resource::velocity, .group = 11, .image_barrier = 17, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 11, .first_clock = 32},
+    {.resource = resource::occlusion, .group = 12, .image_barrier = 26, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 12, .first_clock = 48},
+    {.resource = resource::hdr, .group = 13, .image_barrier = 33, .image_barriers = 1, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 13, .first_clock = 52},
-    {.resource = resource::debug_image, .group = 18, .image_barrier = 50, .image_barriers = 1, .stages = stage::compute_shader,
-     .accesses = access::shader_storage_write, .point = 18, .first_clock = 58},
-    {.resource = resource::histogram, .group = 17, .stages = stage::clear, .accesses = access::transfer_write, .point = 17, .first_clock = 56},
-    {.resource = resource::bloom, .group = 16, .image_barrier = 46, .image_barriers = 2, .stages = stage::compute_shader,
+    {.resource = resource::debug_image, .group = 26, .image_barrier = 55, .image_barriers = 1, .stages = stage::compute_shader,
+     .accesses = access::shader_storage_write, .point = 26, .first_clock = 58},
+    {.resource = resource::histogram, .group = 24, .stages = stage::clear, .accesses = access::transfer_write, .point = 24, .first_clock = 56},
+    {.resource = resource::bloom, .group = 16, .image_barrier = 39, .image_barriers = 2, .stages = stage::compute_shader,
      .accesses = access::shader_storage_write, .point = 16, .first_clock = 54},
-    {.resource = resource::deferred_light_arguments, .group = 8, .stages = stage::clear, .accesses = access::transfer_write, .point = 8,
-     .first_clock = 26},
-    {.resource = resource::deferred_light_tiles, .group = 9, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 9,
-     .first_clock = 36},
+    {.resource = resource::deferred_light_arguments, .group = 11, .stages = stage::clear, .accesses = access::transfer_write, .point = 11,
+     .first_clock = 34},
+    {.resource = resource::deferred_light_tiles, .group = 12, .stages = stage::compute_shader, .accesses = access::shader_storage_write, .point = 12,
+     .first_clock = 50},
 };
 
 constexpr Release kReleases[] = {
-    {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 8},
+    {.resource = resource::world_draws, .stages = stage::draw_indirect, .point = 12},
     {.resource = resource::sun_draws, .stages = stage::draw_indirect, .point = 12},
     {.resource = resource::sun_shadow, .stages = stage::fragment_shader | stage::compute_shader, .point = 15},
-    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 10},
-    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 19},
-    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 19},
+    {.resource = resource::lamp_draws, .stages = stage::draw_indirect, .point = 12},
+    {.resource = resource::scattered, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
+    {.resource = resource::transmittance, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
     {.resource = resource::froxel_fog_cluster_volumes, .stages = stage::compute_shader, .point = 13},
     {.resource = resource::froxel_fog_cluster_lights, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 19},
+    {.resource = resource::depth, .stages = stage::late_fragment_tests | stage::compute_shader, .point = 27},
     {.resource = resource::depth_range, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 11},
-    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 11},
-    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 19},
+    {.resource = resource::zbin_min, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::zbin_max, .stages = stage::compute_shader, .point = 13},
+    {.resource = resource::zbins, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
     {.resource = resource::lights_seen, .stages = stage::compute_shader, .point = 13},
-    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 19},
-    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::tile_kernels, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::normal, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::material, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 19},
-    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 19},
+    {.resource = resource::tile_lights, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::forward_lights, .stages = stage::fragment_shader | stage::compute_shader, .point = 27},
+    {.resource = resource::tile_records, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::tile_kernels, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::albedo, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::normal, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::material, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::emissive, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::velocity, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::occlusion, .stages = stage::compute_shader, .point = 27},
+    {.resource = resource::hdr, .stages = stage::compute_shader, .point = 27},
     {.resource = resource::debug_image, .stages = stage::fragment_shader, .point = 28},
-    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 24},
+    {.resource = resource::histogram, .stages = stage::compute_shader, .point = 27},
     {.resource = resource::bloom, .stages = stage::fragment_shader | stage::compute_shader, .point = 28},
     {.resource = resource::deferred_light_arguments, .stages = stage::draw_indirect, .point = 14},
     {.resource = resource::deferred_light_tiles, .stages = stage::compute_shader, .point = 14},
 };
 
 constexpr Index kAliasClocks[] = {
-    1, 29, 1, 29, 1, 29, 2, 29, 3, 29, 3, 29, 3, 29, 7, 29,
-    7, 29, 7, 29, 7, 29, 7, 29, 7, 29, 8, 29, 9, 29, 9, 29,
-    9, 29, 9, 29, 9, 29, 10, 29, 10, 29, 11, 29, 12, 29, 12, 29,
-    12, 29, 12, 29, 13, 29, 16, 29, 17, 29, 18, 29,
+    1, 29, 1, 29, 2, 29, 3, 29, 10, 29, 10, 29, 10, 29, 10, 29,
+    11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29, 11, 29,
+    11, 29, 11, 29, 12, 29, 12, 29, 12, 29, 12, 29, 12, 29, 12, 29,
+    12, 29, 12, 29, 13, 29, 16, 29, 24, 29, 26, 29,
 };
 
 constexpr Queue kQueues[] = {
@@ -1911,52 +1864,52 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::pass, .index = pass::mesh_cull_world_clear},
     {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::mesh_cull},
-    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::barriers, .index = 2},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
     {.kind = StepKind::pass, .index = pass::depth_world},
     {.kind = StepKind::pass, .index = pass::depth_props},
     {.kind = StepKind::barriers, .index = 3},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
     {.kind = StepKind::pass, .index = pass::depth_range_first},
-    {.kind = StepKind::pass, .index = pass::zbin_build_clear},
     {.kind = StepKind::barriers, .index = 4},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
     {.kind = StepKind::pass, .index = pass::depth_range_down_1},
     {.kind = StepKind::barriers, .index = 5},
     {.kind = StepKind::pass, .index = pass::depth_range_down_2},
     {.kind = StepKind::barriers, .index = 6},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
     {.kind = StepKind::pass, .index = pass::depth_range_down_3},
-    {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::barriers, .index = 7},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
     {.kind = StepKind::pass, .index = pass::depth_range_down_4},
-    {.kind = StepKind::pass, .index = pass::tile_cull},
-    {.kind = StepKind::pass, .index = pass::gbuffer_world},
-    {.kind = StepKind::pass, .index = pass::gbuffer_props},
     {.kind = StepKind::barriers, .index = 8},
     {.kind = StepKind::pass, .index = pass::depth_range_down_5},
-    {.kind = StepKind::pass, .index = pass::deferred_light_reset},
     {.kind = StepKind::barriers, .index = 9},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
-    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
-    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_6},
-    {.kind = StepKind::pass, .index = pass::ambient_occlusion},
-    {.kind = StepKind::pass, .index = pass::deferred_light_classify},
     {.kind = StepKind::barriers, .index = 10},
+    {.kind = StepKind::pass, .index = pass::lamp_cull},
     {.kind = StepKind::pass, .index = pass::depth_range_down_7},
-    {.kind = StepKind::pass, .index = pass::zbin_pack},
+    {.kind = StepKind::pass, .index = pass::zbin_build_clear},
     {.kind = StepKind::pass, .index = pass::light_occlusion_clear},
     {.kind = StepKind::barriers, .index = 11},
     {.kind = StepKind::pass, .index = pass::sun_shadow_world},
     {.kind = StepKind::pass, .index = pass::sun_shadow_props},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_0},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_1},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_2},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_3},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_4},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_5},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_6},
+    {.kind = StepKind::pass, .index = pass::lamp_shadow_world_7},
+    {.kind = StepKind::pass, .index = pass::froxel_fog_clusters_cull},
+    {.kind = StepKind::pass, .index = pass::zbin_build},
     {.kind = StepKind::pass, .index = pass::light_occlusion},
+    {.kind = StepKind::pass, .index = pass::tile_cull},
+    {.kind = StepKind::pass, .index = pass::gbuffer_world},
+    {.kind = StepKind::pass, .index = pass::gbuffer_props},
+    {.kind = StepKind::pass, .index = pass::deferred_light_reset},
     {.kind = StepKind::barriers, .index = 12},
     {.kind = StepKind::pass, .index = pass::froxel_fog_merged},
+    {.kind = StepKind::pass, .index = pass::zbin_pack},
     {.kind = StepKind::pass, .index = pass::light_cull},
+    {.kind = StepKind::pass, .index = pass::ambient_occlusion},
+    {.kind = StepKind::pass, .index = pass::deferred_light_classify},
     {.kind = StepKind::barriers, .index = 13},
     {.kind = StepKind::pass, .index = pass::deferred_light_0},
     {.kind = StepKind::pass, .index = pass::deferred_light_1},
@@ -1974,11 +1927,8 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 16},
     {.kind = StepKind::pass, .index = pass::bloom_first},
     {.kind = StepKind::barriers, .index = 17},
-    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_down_1},
     {.kind = StepKind::barriers, .index = 18},
-    {.kind = StepKind::pass, .index = pass::debug_view},
-    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_down_2},
     {.kind = StepKind::barriers, .index = 19},
     {.kind = StepKind::pass, .index = pass::bloom_down_3},
@@ -1989,13 +1939,16 @@ constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 22},
     {.kind = StepKind::pass, .index = pass::bloom_up_1},
     {.kind = StepKind::barriers, .index = 23},
-    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_2},
     {.kind = StepKind::barriers, .index = 24},
+    {.kind = StepKind::pass, .index = pass::luminance_clear},
     {.kind = StepKind::pass, .index = pass::bloom_up_3},
     {.kind = StepKind::barriers, .index = 25},
+    {.kind = StepKind::pass, .index = pass::luminance},
     {.kind = StepKind::pass, .index = pass::bloom_up_4},
     {.kind = StepKind::barriers, .index = 26},
+    {.kind = StepKind::pass, .index = pass::debug_view},
+    {.kind = StepKind::pass, .index = pass::expose},
     {.kind = StepKind::pass, .index = pass::bloom_up_5},
     {.kind = StepKind::barriers, .index = 27},
     {.kind = StepKind::pass, .index = pass::tonemap},
@@ -2007,19 +1960,25 @@ constexpr Batch kBatches[] = {
 };
 
 constexpr Attachment kAttachments[] = {
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
-     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
+     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 1, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 6, .layers = 1},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 2, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 3, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 4, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 5, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 6, .layers = 1},
+     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
+    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 7, .layers = 1},
      .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::clear, .store = StoreOp::store},
@@ -2033,12 +1992,6 @@ constexpr Attachment kAttachments[] = {
      .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
      .load = LoadOp::load, .store = StoreOp::none},
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 5, .layers = 1},
-     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::lamp_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layer = 7, .layers = 1},
-     .layout = Layout::depth_attachment, .load = LoadOp::clear, .store = StoreOp::store},
-    {.ref = {.resource = resource::sun_shadow}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_attachment,
-     .load = LoadOp::clear, .store = StoreOp::store},
     {.ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color, .mips = 1, .layers = 1}, .layout = Layout::color_attachment,
      .load = LoadOp::load, .store = StoreOp::store},
     {.ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth, .mips = 1, .layers = 1}, .layout = Layout::depth_read_only,
@@ -2048,42 +2001,39 @@ constexpr Attachment kAttachments[] = {
 };
 
 constexpr Rendering kRenderings[] = {
-    {.depth = 0, .width = 0, .height = 0},
-    {.depth = 1, .width = 1, .height = 2},
+    {.depth = 0, .width = 1, .height = 2},
+    {.depth = 1, .width = 5, .height = 5},
     {.depth = 2, .width = 0, .height = 0},
     {.depth = 3, .width = 0, .height = 0},
     {.depth = 4, .width = 0, .height = 0},
     {.depth = 5, .width = 0, .height = 0},
     {.depth = 6, .width = 0, .height = 0},
-    {.first_color = 7, .color_count = 5, .depth = 12, .width = 1, .height = 2},
-    {.depth = 13, .width = 0, .height = 0},
-    {.depth = 14, .width = 0, .height = 0},
-    {.depth = 15, .width = 5, .height = 5},
+    {.depth = 7, .width = 0, .height = 0},
+    {.depth = 8, .width = 0, .height = 0},
+    {.depth = 9, .width = 0, .height = 0},
+    {.first_color = 10, .color_count = 5, .depth = 15, .width = 1, .height = 2},
     {.first_color = 16, .color_count = 1, .depth = 17, .width = 1, .height = 2},
     {.first_color = 18, .color_count = 1, .width = 1, .height = 2},
 };
 
 constexpr ShaderModule kShaders[] = {
     {.name = "rgc/mesh_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_mesh_cull_comp},
-    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
-    {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
     {.name = "passes/geometry/depth_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_world_vert},
     {.name = "passes/geometry/depth_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_depth_props_vert},
     {.name = "passes/culling/depth_range_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_first_comp},
     {.name = "passes/culling/depth_range_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_depth_range_down_comp},
+    {.name = "passes/geometry/lamp_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_geometry_lamp_cull_comp},
+    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
+    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
+    {.name = "passes/geometry/lamp_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_lamp_world_vert},
+    {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
     {.name = "passes/culling/zbin_build.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_build_comp},
+    {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "passes/culling/tile_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_tile_cull_comp},
     {.name = "passes/geometry/gbuffer_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_world_vert},
     {.name = "passes/geometry/gbuffer_world.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_world_frag},
     {.name = "passes/geometry/gbuffer_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_gbuffer_props_vert},
     {.name = "passes/geometry/gbuffer_props.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_geometry_gbuffer_props_frag},
-    {.name = "passes/fog/fog_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_fog_fog_cull_comp},
-    {.name = "passes/lighting/ambient_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_ambient_occlusion_comp},
-    {.name = "rgc/deferred_light_classify.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_deferred_light_classify_comp},
-    {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
-    {.name = "passes/geometry/sun_world.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_world_vert},
-    {.name = "passes/geometry/sun_props.vert", .stage = ShaderStage::vertex, .words = frame::spirv::passes_geometry_sun_props_vert},
-    {.name = "passes/culling/light_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_occlusion_comp},
     {.name = "rgc/froxel_fog.merged.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp},
     {.name = "rgc/froxel_fog.merged.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp_2},
     {.name = "rgc/froxel_fog.merged.comp.3", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp_3},
@@ -2092,7 +2042,10 @@ constexpr ShaderModule kShaders[] = {
     {.name = "rgc/froxel_fog.merged.comp.6", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp_6},
     {.name = "rgc/froxel_fog.merged.comp.7", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp_7},
     {.name = "rgc/froxel_fog.merged.comp.8", .stage = ShaderStage::compute, .words = frame::spirv::rgc_froxel_fog_merged_comp_8},
+    {.name = "passes/culling/zbin_pack.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_zbin_pack_comp},
     {.name = "passes/culling/light_cull.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_culling_light_cull_comp},
+    {.name = "passes/lighting/ambient_occlusion.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_ambient_occlusion_comp},
+    {.name = "rgc/deferred_light_classify.comp", .stage = ShaderStage::compute, .words = frame::spirv::rgc_deferred_light_classify_comp},
     {.name = "passes/lighting/deferred_light.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp},
     {.name = "passes/lighting/deferred_light.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_2},
     {.name = "passes/lighting/deferred_light.comp.3", .stage = ShaderStage::compute, .words = frame::spirv::passes_lighting_deferred_light_comp_3},
@@ -2106,21 +2059,21 @@ constexpr ShaderModule kShaders[] = {
     {.name = "passes/post/resolve_temporal.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_resolve_temporal_comp},
     {.name = "passes/post/bloom_first.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_first_comp},
     {.name = "passes/post/bloom_down.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_down_comp},
-    {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
+    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
     {.name = "passes/post/luminance.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp},
     {.name = "passes/post/luminance.comp.2", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_luminance_comp_2},
-    {.name = "passes/post/bloom_up.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_bloom_up_comp},
+    {.name = "passes/debug/debug_view.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_debug_debug_view_comp},
     {.name = "passes/post/expose.comp", .stage = ShaderStage::compute, .words = frame::spirv::passes_post_expose_comp},
     {.name = "rgc/fullscreen.vert", .stage = ShaderStage::vertex, .words = frame::spirv::rgc_fullscreen_vert},
     {.name = "passes/post/tonemap.frag", .stage = ShaderStage::fragment, .words = frame::spirv::passes_post_tonemap_frag},
 };
 
 constexpr Index kPipelineShaders[] = {
-    0, 1, 2, 3, 4, 2, 5, 2, 2, 6, 6, 2, 6, 7, 2, 6,
-    8, 9, 10, 11, 12, 6, 2, 2, 13, 6, 14, 15, 6, 16, 17, 18,
+    0, 1, 2, 3, 4, 4, 4, 4, 4, 4, 5, 4, 6, 7, 8, 8,
+    8, 8, 8, 8, 8, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18,
     19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31, 32, 33, 34,
-    35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 41, 41, 41, 41, 45, 46,
-    45, 45, 45, 45, 47, 48,
+    35, 36, 37, 38, 39, 40, 41, 41, 41, 41, 41, 42, 42, 42, 43, 44,
+    42, 45, 46, 42, 47, 48,
 };
 
 constexpr ColorBlend kBlends[] = {
@@ -2168,61 +2121,61 @@ constexpr VertexAttribute kVertexAttributes[] = {
 
 constexpr Pipeline kPipelines[] = {
     {.name = "mesh_cull", .pass = pass::mesh_cull, .shader_count = 1},
-    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 1, .shader_count = 1},
-    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 2, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 3, .shader_count = 1,
+    {.name = "depth_world", .pass = pass::depth_world, .first_shader = 1, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}},
-    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 4, .shader_count = 1,
+    {.name = "depth_props", .pass = pass::depth_props, .first_shader = 2, .shader_count = 1,
      .raster = {.cull = 2, .depth_test = true, .depth_write = true}, .vertex_binding_count = 1, .vertex_attribute_count = 6},
-    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 5, .shader_count = 1,
+    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 3, .shader_count = 1},
+    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 4, .shader_count = 1},
+    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 5, .shader_count = 1},
+    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 6, .shader_count = 1},
+    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 7, .shader_count = 1},
+    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 8, .shader_count = 1},
+    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 9, .shader_count = 1},
+    {.name = "lamp_cull", .pass = pass::lamp_cull, .first_shader = 10, .shader_count = 1},
+    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 11, .shader_count = 1},
+    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 12, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_first", .pass = pass::depth_range_first, .first_shader = 6, .shader_count = 1},
-    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 7, .shader_count = 1,
+    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 13, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}, .first_vertex_binding = 1, .vertex_binding_count = 1, .first_vertex_attribute = 6,
+     .vertex_attribute_count = 6},
+    {.name = "lamp_shadow_world[0]", .pass = pass::lamp_shadow_world_0, .first_shader = 14, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 8, .shader_count = 1,
+    {.name = "lamp_shadow_world[1]", .pass = pass::lamp_shadow_world_1, .first_shader = 15, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[1]", .pass = pass::depth_range_down_1, .first_shader = 9, .shader_count = 1},
-    {.name = "depth_range_down[2]", .pass = pass::depth_range_down_2, .first_shader = 10, .shader_count = 1},
-    {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 11, .shader_count = 1,
+    {.name = "lamp_shadow_world[2]", .pass = pass::lamp_shadow_world_2, .first_shader = 16, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[3]", .pass = pass::depth_range_down_3, .first_shader = 12, .shader_count = 1},
-    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 13, .shader_count = 1},
-    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 14, .shader_count = 1,
+    {.name = "lamp_shadow_world[3]", .pass = pass::lamp_shadow_world_3, .first_shader = 17, .shader_count = 1,
      .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "depth_range_down[4]", .pass = pass::depth_range_down_4, .first_shader = 15, .shader_count = 1},
-    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 16, .shader_count = 1},
-    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 17, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+    {.name = "lamp_shadow_world[4]", .pass = pass::lamp_shadow_world_4, .first_shader = 18, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 19, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[6]", .pass = pass::lamp_shadow_world_6, .first_shader = 20, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 21, .shader_count = 1,
+     .raster = {.depth_test = true, .depth_write = true}},
+    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 22, .shader_count = 1},
+    {.name = "zbin_build", .pass = pass::zbin_build, .first_shader = 23, .shader_count = 1},
+    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 24, .shader_count = 1},
+    {.name = "tile_cull", .pass = pass::tile_cull, .first_shader = 25, .shader_count = 1},
+    {.name = "gbuffer_world", .pass = pass::gbuffer_world, .first_shader = 26, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
      .blend_count = 5},
-    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 19, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
-     .first_blend = 5, .blend_count = 5, .first_vertex_binding = 1, .vertex_binding_count = 1, .first_vertex_attribute = 6,
+    {.name = "gbuffer_props", .pass = pass::gbuffer_props, .first_shader = 28, .shader_count = 2, .raster = {.cull = 2, .depth_test = true},
+     .first_blend = 5, .blend_count = 5, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
      .vertex_attribute_count = 6},
-    {.name = "depth_range_down[5]", .pass = pass::depth_range_down_5, .first_shader = 21, .shader_count = 1},
-    {.name = "lamp_shadow_world[5]", .pass = pass::lamp_shadow_world_5, .first_shader = 22, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "lamp_shadow_world[7]", .pass = pass::lamp_shadow_world_7, .first_shader = 23, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "froxel_fog.clusters.cull", .pass = pass::froxel_fog_clusters_cull, .first_shader = 24, .shader_count = 1},
-    {.name = "depth_range_down[6]", .pass = pass::depth_range_down_6, .first_shader = 25, .shader_count = 1},
-    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 26, .shader_count = 1},
-    {.name = "deferred_light.classify", .pass = pass::deferred_light_classify, .first_shader = 27, .shader_count = 1},
-    {.name = "depth_range_down[7]", .pass = pass::depth_range_down_7, .first_shader = 28, .shader_count = 1},
-    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 29, .shader_count = 1},
-    {.name = "sun_shadow_world", .pass = pass::sun_shadow_world, .first_shader = 30, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}},
-    {.name = "sun_shadow_props", .pass = pass::sun_shadow_props, .first_shader = 31, .shader_count = 1,
-     .raster = {.depth_test = true, .depth_write = true}, .first_vertex_binding = 2, .vertex_binding_count = 1, .first_vertex_attribute = 12,
-     .vertex_attribute_count = 6},
-    {.name = "light_occlusion", .pass = pass::light_occlusion, .first_shader = 32, .shader_count = 1},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 30, .shader_count = 1},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 31, .shader_count = 1},
+    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 32, .shader_count = 1},
     {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 33, .shader_count = 1},
     {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 34, .shader_count = 1},
     {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 35, .shader_count = 1},
     {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 36, .shader_count = 1},
     {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 37, .shader_count = 1},
-    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 38, .shader_count = 1},
-    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 39, .shader_count = 1},
-    {.name = "froxel_fog.merged", .pass = pass::froxel_fog_merged, .first_shader = 40, .shader_count = 1},
-    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 41, .shader_count = 1},
+    {.name = "zbin_pack", .pass = pass::zbin_pack, .first_shader = 38, .shader_count = 1},
+    {.name = "light_cull", .pass = pass::light_cull, .first_shader = 39, .shader_count = 1},
+    {.name = "ambient_occlusion", .pass = pass::ambient_occlusion, .first_shader = 40, .shader_count = 1},
+    {.name = "deferred_light.classify", .pass = pass::deferred_light_classify, .first_shader = 41, .shader_count = 1},
     {.name = "deferred_light[0]", .pass = pass::deferred_light_0, .first_shader = 42, .shader_count = 1},
     {.name = "deferred_light[1]", .pass = pass::deferred_light_1, .first_shader = 43, .shader_count = 1},
     {.name = "deferred_light[2]", .pass = pass::deferred_light_2, .first_shader = 44, .shader_count = 1},
@@ -2236,18 +2189,18 @@ constexpr Pipeline kPipelines[] = {
     {.name = "resolve_temporal", .pass = pass::resolve_temporal, .first_shader = 52, .shader_count = 1},
     {.name = "bloom_first", .pass = pass::bloom_first, .first_shader = 53, .shader_count = 1},
     {.name = "bloom_down[1]", .pass = pass::bloom_down_1, .first_shader = 54, .shader_count = 1},
-    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 55, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 56, .shader_count = 1},
-    {.name = "luminance", .pass = pass::luminance, .first_shader = 57, .shader_count = 1},
-    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 58, .shader_count = 1},
-    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 59, .shader_count = 1},
-    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 60, .shader_count = 1},
-    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 61, .shader_count = 1},
-    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 62, .shader_count = 1},
-    {.name = "expose", .pass = pass::expose, .first_shader = 63, .shader_count = 1},
-    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 64, .shader_count = 1},
-    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 65, .shader_count = 1},
-    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 66, .shader_count = 1},
+    {.name = "bloom_down[2]", .pass = pass::bloom_down_2, .first_shader = 55, .shader_count = 1},
+    {.name = "bloom_down[3]", .pass = pass::bloom_down_3, .first_shader = 56, .shader_count = 1},
+    {.name = "bloom_down[4]", .pass = pass::bloom_down_4, .first_shader = 57, .shader_count = 1},
+    {.name = "bloom_down[5]", .pass = pass::bloom_down_5, .first_shader = 58, .shader_count = 1},
+    {.name = "bloom_up[1]", .pass = pass::bloom_up_1, .first_shader = 59, .shader_count = 1},
+    {.name = "bloom_up[2]", .pass = pass::bloom_up_2, .first_shader = 60, .shader_count = 1},
+    {.name = "bloom_up[3]", .pass = pass::bloom_up_3, .first_shader = 61, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 62, .shader_count = 1},
+    {.name = "luminance", .pass = pass::luminance, .first_shader = 63, .shader_count = 1},
+    {.name = "bloom_up[4]", .pass = pass::bloom_up_4, .first_shader = 64, .shader_count = 1},
+    {.name = "debug_view", .pass = pass::debug_view, .first_shader = 65, .shader_count = 1},
+    {.name = "expose", .pass = pass::expose, .first_shader = 66, .shader_count = 1},
     {.name = "bloom_up[5]", .pass = pass::bloom_up_5, .first_shader = 67, .shader_count = 1},
     {.name = "tonemap", .pass = pass::tonemap, .first_shader = 68, .shader_count = 2, .first_blend = 11, .blend_count = 1},
 };
@@ -2258,35 +2211,15 @@ constexpr Binding kBindings[] = {
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::world_draws}},  // mesh_cull
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::sun_draws}},  // mesh_cull
     {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // mesh_cull
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
-    {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[0]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[0]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[0]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[0]
     {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // depth_world
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // depth_world
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // depth_world
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // depth_props
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[2]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // depth_range_first
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::general},  // depth_range_first
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[1]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[1]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[1]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[1]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range}, .range = {.aspects = aspect_color, .mips = 1},
      .layout = Layout::shader_read_only},  // depth_range_down[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -2295,26 +2228,85 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[2]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // depth_range_down[2]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[3]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[3]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[3]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // depth_range_down[3]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // zbin_build
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[4]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[4]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[4]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[4]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
      .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // depth_range_down[4]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[6]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::general},  // depth_range_down[6]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_instances}},  // lamp_cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lamp_draws}},  // lamp_cull
+    {.binding = 2, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // lamp_cull
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 2},  // lamp_cull
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
+    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[0]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[0]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[0]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[0]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[1]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[1]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[1]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[1]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[2]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[2]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[2]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[2]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[3]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[3]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[3]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[3]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[4]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[4]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[4]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[4]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[5]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[5]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[6]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[6]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[6]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[6]
+    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.clusters.cull
+    // froxel_fog.clusters.cull
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},
+    // froxel_fog.clusters.cull
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
+    // froxel_fog.clusters.cull
+    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
+    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
+    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // zbin_build
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_build
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_build
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // zbin_build
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // light_occlusion
+    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
+     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only},  // light_occlusion
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // tile_cull
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // tile_cull
@@ -2331,62 +2323,6 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // gbuffer_world
     {.binding = 6, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_world
     {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // gbuffer_props
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[5]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // depth_range_down[5]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[5]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[5]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[5]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[5]
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // lamp_shadow_world[7]
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // lamp_shadow_world[7]
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // lamp_shadow_world[7]
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 2},  // lamp_shadow_world[7]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // froxel_fog.clusters.cull
-    // froxel_fog.clusters.cull
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},
-    // froxel_fog.clusters.cull
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
-    // froxel_fog.clusters.cull
-    {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_lights}},
-    {.binding = 4, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.clusters.cull
-    {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.clusters.cull
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[6]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::general},  // depth_range_down[6]
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
-     .layout = Layout::depth_read_only},  // ambient_occlusion
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // ambient_occlusion
-    {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color},
-     .layout = Layout::general},  // ambient_occlusion
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // ambient_occlusion
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // deferred_light.classify
-    // deferred_light.classify
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_arguments}},
-    // deferred_light.classify
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},
-    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::tile_kernels},
-     .range = {.aspects = aspect_color}, .layout = Layout::general},  // deferred_light.classify
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 6, .mips = 1}, .layout = Layout::shader_read_only},  // depth_range_down[7]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color, .mip = 7, .mips = 1}, .layout = Layout::general},  // depth_range_down[7]
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // zbin_pack
-    {.type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_instances}},  // sun_shadow_world
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_vertices}},  // sun_shadow_world
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 1, .ref = {.resource = resource::scene_indices}},  // sun_shadow_world
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_world
-    {.type = DescriptorType::uniform_buffer_dynamic, .stages = 1, .params = 0},  // sun_shadow_props
-    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // light_occlusion
-    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
-     .range = {.aspects = aspect_color}, .layout = Layout::shader_read_only},  // light_occlusion
-    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_occlusion
-    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_occlusion
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_fog_volumes}},  // froxel_fog.merged
     // froxel_fog.merged
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::froxel_fog_cluster_volumes}},
@@ -2409,6 +2345,9 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .view = Dimension::d3, .layout = Layout::general},  // froxel_fog.merged
     {.binding = 11, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // froxel_fog.merged
     {.binding = 12, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // froxel_fog.merged
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_min}},  // zbin_pack
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbin_max}},  // zbin_pack
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::zbins}},  // zbin_pack
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // light_cull
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::lights_seen}},  // light_cull
     {.binding = 2, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth_range},
@@ -2416,6 +2355,20 @@ constexpr Binding kBindings[] = {
     {.binding = 3, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_lights}},  // light_cull
     {.binding = 4, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::forward_lights}},  // light_cull
     {.binding = 5, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // light_cull
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
+     .layout = Layout::depth_read_only},  // ambient_occlusion
+    {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::normal}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // ambient_occlusion
+    {.binding = 2, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::occlusion}, .range = {.aspects = aspect_color},
+     .layout = Layout::general},  // ambient_occlusion
+    {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // ambient_occlusion
+    {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::tile_features}},  // deferred_light.classify
+    // deferred_light.classify
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_arguments}},
+    // deferred_light.classify
+    {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::deferred_light_tiles}},
+    {.binding = 3, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::tile_kernels},
+     .range = {.aspects = aspect_color}, .layout = Layout::general},  // deferred_light.classify
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::scene_lights}},  // deferred_light[0]
     {.binding = 1, .type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::scene_albedo_maps},
      .range = {.aspects = aspect_color}, .arrayed = true, .layout = Layout::shader_read_only, .sampler = 1},  // deferred_light[0]
@@ -2702,6 +2655,41 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[1]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_down[1]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
+    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
+     .layout = Layout::shader_read_only},  // luminance
+    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
+    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
+    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
+     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::depth}, .range = {.aspects = aspect_depth},
      .layout = Layout::depth_read_only},  // debug_view
     {.binding = 1, .type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::albedo}, .range = {.aspects = aspect_color},
@@ -2733,45 +2721,10 @@ constexpr Binding kBindings[] = {
      .range = {.aspects = aspect_color}, .layout = Layout::general},  // debug_view
     {.binding = 17, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // debug_view
     {.binding = 18, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 1},  // debug_view
-    {.type = DescriptorType::sampled_image, .stages = 32, .ref = {.resource = resource::hdr}, .range = {.aspects = aspect_color},
-     .layout = Layout::shader_read_only},  // luminance
-    {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // luminance
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_down[2]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_down[3]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_down[4]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_down[5]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::general},  // bloom_down[5]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 5, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[1]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::general},  // bloom_up[1]
     {.type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::histogram}},  // expose
     {.binding = 1, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure, .age = 1}},  // expose
     {.binding = 2, .type = DescriptorType::storage_buffer, .stages = 32, .ref = {.resource = resource::exposure}},  // expose
     {.binding = 3, .type = DescriptorType::uniform_buffer_dynamic, .stages = 32, .params = 0},  // expose
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 4, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[2]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::general},  // bloom_up[2]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 3, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[3]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::general},  // bloom_up[3]
-    {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 2, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[4]
-    {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
-     .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::general},  // bloom_up[4]
     {.type = DescriptorType::combined_image_sampler, .stages = 32, .ref = {.resource = resource::bloom},
      .range = {.aspects = aspect_color, .mip = 1, .mips = 1}, .layout = Layout::shader_read_only, .sampler = 0},  // bloom_up[5]
     {.binding = 1, .type = DescriptorType::storage_image, .stages = 32, .ref = {.resource = resource::bloom},
@@ -2798,8 +2751,8 @@ constexpr Params kParams[] = {
 };
 
 constexpr Index kPassParams[] = {
-    0, 0, 2, 2, 0, 0, 2, 2, 2, 2, 0, 2, 0, 0, 0, 2,
-    2, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 1, 0, 1,
+    0, 0, 0, 0, 2, 0, 0, 2, 2, 2, 2, 2, 2, 2, 2, 0,
+    1, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 1,
     0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 0, 1, 0,
     0,
 };
@@ -2821,7 +2774,7 @@ constexpr Index kPassFeatures[] = {
 };
 
 constexpr Index kPipelineChoices[] = {
-    31, 32, 33, 34, 35, 36, 37, 38, 53, 54,
+    28, 29, 30, 31, 32, 33, 34, 35, 59, 60,
 };
 
 constexpr std::string_view kConditions[] = {
@@ -2832,8 +2785,8 @@ constexpr Transfer kTransfers[] = {
     {.kind = TransferKind::fill, .dst = {.resource = resource::cull_counts}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::zbin_min}, .value = {.word = {65535, 0, 0, 0}}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::zbin_max}},
-    {.kind = TransferKind::fill, .dst = {.resource = resource::deferred_light_arguments}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::lights_seen}},
+    {.kind = TransferKind::fill, .dst = {.resource = resource::deferred_light_arguments}},
     {.kind = TransferKind::fill, .dst = {.resource = resource::histogram}},
 };
 
@@ -2844,7 +2797,7 @@ constexpr Plan kPlan =
      .attachments = kAttachments, .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends,
      .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .bindings = kBindings, .samplers = kSamplers, .params = kParams,
      .pass_params = kPassParams, .features = kFeatures, .pass_features = kPassFeatures, .pipeline_choices = kPipelineChoices, .transfers = kTransfers,
-     .mip_limits = kMipLimits, .conditions = kConditions, .feature_conditions = kFeatureConditions, .estimated_heap_bytes = 19118592};
+     .mip_limits = kMipLimits, .conditions = kConditions, .feature_conditions = kFeatureConditions, .estimated_heap_bytes = 19134208};
 
 }  // namespace
 

@@ -35,7 +35,7 @@ struct FmtOptions {
 };
 struct VerifyCommand {
   std::string file;
-  bool mutate = false;
+  bool mutate = false, ask_all = false;
   compiler::CompileOptions compile;
 };
 struct ExplainOptions {

@@ -220,6 +220,7 @@ void add_verify(CLI::App& app, Run& run) {
   Subcommand<VerifyCommand> command(app, run, "verify", "prove that the plans mean what the program says", verify_file);
   command->add_option("FILE", command.options->file, kRootFile)->required();
   command->add_flag("--mutate", command.options->mutate, "test the checker: every damaged plan must be rejected");
+  command->add_flag("--long", command.options->ask_all, "with --mutate: ask the abstract machine about every damaged plan that passes, not about 20 of each class");
   add_plan_options(*command.command, command.options->compile);
 }
 

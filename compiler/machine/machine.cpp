@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <functional>
+#include <numeric>
+#include <ranges>
 
 #include "compiler/machine/hand_offs.h"
 #include "compiler/machine/memory.h"
@@ -87,17 +90,38 @@ struct Run {
   }
 };
 
+// For each event itself and all that must precede it, as bits. O(predecessors * events / 64).
+class Closures {
+ public:
+  explicit Closures(const Predecessors& predecessors) : words_((predecessors.size() + 63) / 64), bits_(predecessors.size() * words_) {
+    for (uint32_t e = 0; e < predecessors.size(); ++e) {
+      for (const uint32_t before : predecessors[e] | std::views::reverse)  // the latest imply most of the others
+        if (!has(e, before)) join(e, before);
+      bits_[e * words_ + e / 64] |= uint64_t{1} << (e % 64);
+    }
+  }
+  bool has(uint32_t event, uint32_t before) const { return bits_[event * words_ + before / 64] >> (before % 64) & 1; }
+  void join(uint32_t event, uint32_t before) {
+    for (size_t w = 0; w <= before / 64; ++w) bits_[event * words_ + w] |= bits_[before * words_ + w];
+  }
+  // Everything submitted before the event.
+  bool is_all(uint32_t event) const {
+    uint32_t count = 0;
+    for (size_t w = 0; w < words_; ++w) count += static_cast<uint32_t>(std::popcount(bits_[event * words_ + w]));
+    return count == event + 1;
+  }
+
+ private:
+  size_t words_;
+  std::vector<uint64_t> bits_;
+};
+
 // `event` and all that must precede it, then the rest; each part in submission order.
-Schedule as_early_as_possible(const Predecessors& predecessors, uint32_t event) {
-  std::vector<bool> first(predecessors.size());
-  first[event] = true;
-  for (uint32_t e = event + 1; e-- > 0;)
-    if (first[e])
-      for (const uint32_t before : predecessors[e]) first[before] = true;
+Schedule as_early_as_possible(const Closures& closures, uint32_t events, uint32_t event) {
   Schedule schedule;
   for (const bool part : {true, false})
-    for (uint32_t e = 0; e < predecessors.size(); ++e)
-      if (first[e] == part) schedule.push_back(e);
+    for (uint32_t e = 0; e < events; ++e)
+      if (closures.has(event, e) == part) schedule.push_back(e);
   return schedule;
 }
 
@@ -124,8 +148,15 @@ void for_all_schedules(const Predecessors& predecessors, size_t limit, const std
   extend();
 }
 
+// Events that everything submitted before must precede come no earlier than in submission order, which is run once for all of them.
 void run_directed(Run& run, const Predecessors& predecessors) {
-  for (uint32_t event = 0; event < predecessors.size() && !run.full(); ++event) run.run(as_early_as_possible(predecessors, event));
+  const auto events = static_cast<uint32_t>(predecessors.size());
+  const Closures closures(predecessors);
+  Schedule in_order(events);
+  std::iota(in_order.begin(), in_order.end(), 0u);
+  run.run(in_order);
+  for (uint32_t event = 0; event < events && !run.full(); ++event)
+    if (!closures.is_all(event)) run.run(as_early_as_possible(closures, events, event));
 }
 
 void run_exhaustively(Run& run, const Predecessors& predecessors) {

@@ -84,15 +84,22 @@ class Mutator {
     if (options_.progress) options_.progress(report_.mutants);
     if (!is_proved(mutant)) {
       ++report_.killed, ++kind.killed;
-      if (options_.misbehaves && options_.ask_every != 0 && report_.killed % options_.ask_every == 0)
+      if (options_.misbehaves && options_.ask_every != 0 && report_.killed % options_.ask_every == 0 && kind.asked < options_.ask_at_most)
         ++kind.asked, kind.agreed += options_.misbehaves(mutant);
-    } else if (options_.misbehaves && options_.misbehaves(mutant)) {
+    } else if (is_asked(harmless) && options_.misbehaves(mutant)) {
       report_.survivors.push_back(what + " (the second opinion is that this is wrong)");
     } else if (!harmless.empty()) {
       ++report_.equivalent[harmless];
     } else {
       report_.survivors.push_back(what);
     }
+  }
+
+  bool is_asked(const std::string& harmless) {
+    if (!options_.misbehaves) return false;
+    if (harmless.empty()) return true;
+    size_t& asked = report_.confirmed[harmless];
+    return asked < options_.ask_at_most && ++asked > 0;
   }
 
   template <class Row, class Change>

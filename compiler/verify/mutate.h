@@ -30,15 +30,16 @@ struct MutationReport {
   size_t mutants = 0, killed = 0;
   std::map<std::string, KindReport> kinds;   // of damage
   std::map<std::string, size_t> equivalent;  // class -> mutants
+  std::map<std::string, size_t> confirmed;   // class -> of them those that the second opinion was asked about
   std::vector<std::string> survivors;        // one line each: what was damaged, unnoticed
 };
 
 struct MutateOptions {
   size_t every = 1, first = 0;  // try every n-th mutant, after `first` others
-  // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about every mutant that verify() accepts, and
-  // about every n-th that it rejects.
+  // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about mutants that verify() accepts, and about
+  // every n-th that it rejects, but no more than so many times for each class and each kind; about survivors without a class always.
   std::function<bool(const Plan&)> misbehaves = {};
-  size_t ask_every = 0;
+  size_t ask_every = 0, ask_at_most = SIZE_MAX;
   std::function<void(size_t done)> progress = {};
 };
 

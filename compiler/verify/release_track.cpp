@@ -106,6 +106,24 @@ uint32_t first_not_over(Replay& replay, ReleaseTrack& track, bool before, uint32
   return next == releases.size() ? kNone : plan_of(replay).releases[releases[next].release].point;
 }
 
+// Memory may change hands because the release is over: what that rests on is needed.
+void rely_on(Replay& replay, const FollowedRelease& followed, uint32_t queue, StageSet sources) {
+  const auto require = [&](const Reach& reach) {
+    Alternatives ways;
+    for (uint32_t s = 0; s < kStageCount; ++s)
+      if (reach.stages(queue) & sources & stage_bit(s)) ways.add(proof_of_reach(reach, site_of(queue, s)));
+    if (ways.proof) replay.require(*ways.proof);
+  };
+  for (const ReadRecord& read : followed.stages) require(read.reach());
+  for (const WriteRecord& write : followed.writes) require(write.reach);
+}
+void rely_on_all(Replay& replay, ReleaseTrack& track, bool before, uint32_t from, uint32_t queue, StageSet sources, Index clock) {
+  if (!replay.history.proofs || clock == kNone) return;
+  const FollowedQueue& releases = (before ? track.before : track.now)[from];
+  size_t& next = track.relied[{before, from, queue, sources}];
+  for (; next < releases.size() && plan_of(replay).releases[releases[next].release].point <= clock; ++next) rely_on(replay, releases[next], queue, sources);
+}
+
 // Releases of this frame that are not reached in listed order are not over.
 uint32_t first_to_come(const ReleaseTrack& track, uint32_t queue) {
   for (uint32_t p = track.points[queue]; p < track.at_point[queue].size(); ++p)
@@ -136,9 +154,11 @@ void check_clock(Replay& replay, ReleaseTrack& track, const Acquire& acquire) {
     }
     const uint32_t open = std::min(first_not_over(replay, track, false, q, acquire.queue, sources), first_to_come(track, q));
     if (claims(own, open)) report_clock(replay, acquire, q, open, false);
+    rely_on_all(replay, track, false, q, acquire.queue, sources, own);
     if (replay.frame == 0) continue;
     const uint32_t left = first_not_over(replay, track, true, q, acquire.queue, sources);
     if (claims(previous, left)) report_clock(replay, acquire, q, left, true);
+    rely_on_all(replay, track, true, q, acquire.queue, sources, previous);
   }
 }
 
@@ -169,7 +189,7 @@ void begin_frame(Replay& replay, ReleaseTrack& track) {
   track.before = std::move(track.now);
   track.now.assign(replay.model.queue_count, {});
   track.points.assign(replay.model.queue_count, 0);
-  track.over.clear();
+  track.over.clear(), track.relied.clear();
 }
 
 void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group) {

@@ -34,6 +34,7 @@ struct ReleaseTrack {
   std::vector<uint32_t> points;                                           // by queue: how many of this frame have passed
   std::vector<FollowedQueue> now, before;                                 // by queue: of this frame and of the one before
   std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> over;  // (before, of queue, at queue, first scope): so many are over
+  std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> relied;  // the same: of so many a clock says that they are over
   std::vector<Release> used;                                              // by release: bits that wait for something
   std::vector<bool> gives;                                                // by plan resource: its memory may be given away
 };

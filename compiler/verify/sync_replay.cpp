@@ -69,12 +69,14 @@ uint64_t order_of(const Replay& replay, const PassNode& node, const Use& use, si
   return use.orders[cell] == 0 ? 0 : frame | use.orders[cell];
 }
 
+// Readers in between saw the write, and whoever writes waits for them: that orders it, too. Those that commute with it are not waited for.
+bool readers_order(const WriteRecord& write, uint64_t order) { return write.read_since && (write.read_by == 0 || write.read_by != order); }
+
 void check_after_writes(Replay& replay, const Point& at, const CellState& state, uint64_t order, uint32_t stage, uint32_t access, bool needed) {
   const bool writes = kAllWrites & access_bit(access);
   for (const WriteRecord& write : state.writes) {
     if (order != 0 && write.order == order) continue;
-    // Readers in between saw the write, and this access waits for them: that orders it, too.
-    if (writes && write.read_since) continue;
+    if (writes && readers_order(write, order)) continue;
     if (write.visible_to(at.queue, stage) & access_bit(access))
       replay.require(proof_of_visible(write, site_of(at.queue, stage), access));
     else if (needed)
@@ -169,7 +171,8 @@ void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& 
   const uint32_t queue = replay.model.passes[pass].queue;
   // Of this pass itself, too: what it wrote in an earlier frame.
   for (WriteRecord& write : state.writes)
-    if (use.read_stages && !use.may_skip && !(use.order != 0 && write.order == use.order)) write.read_since = true;
+    if (use.read_stages && !use.may_skip && !write.read_since && !(use.order != 0 && write.order == use.order))
+      write.read_since = true, write.read_by = use.order;
   for (uint32_t s = 0; s < kStageCount; ++s) {
     // A later access that waits for this pass's write in a stage waits for its read there as well.
     if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;

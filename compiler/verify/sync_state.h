@@ -78,6 +78,7 @@ struct WriteRecord {
   uint32_t seen = 0;
   bool available = false;
   bool read_since = false;  // by a pass that always runs: who waits for it comes after this write, and sees it
+  uint64_t read_by = 0;     // the order of that pass: those that share it do not wait for it
   bool released = false;    // a release of the resource waits for it and makes it available
   Reach reach;              // from where it became available
   ByQueue<Visible> visible;

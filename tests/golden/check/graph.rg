@@ -10,7 +10,7 @@ struct Vertex { position: vec3  normal: vec3 }
 interface Scene {
   lights: buffer Light[] ready as storage in compute, fragment
   maps: image rgba8_srgb 256x256 layers 4 mips 9 ready as sampled in fragment
-  grown: buffer Light[64] written as storage in compute after sampled
+  grown: buffer Light[64] written as storage in compute after storage in fragment
 }
 sampler clamp { filter linear  mip linear  address clamp }
 sampler shadow { filter linear  compare greater_equal }

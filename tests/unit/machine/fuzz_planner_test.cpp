@@ -147,6 +147,24 @@ TEST(Redundancy, IsJudgedOfRangesThatLieAlikeAtAllExtents) {
   EXPECT_EQ(with_a_stage_too_many("m * 4"), 0u);
 }
 
+// Writers that commute do not wait for each other, so what one of them reads orders only itself: a plan that orders nothing else before the other is wrong.
+TEST(Commuting, ReadersOrderOnlyThemselves) {
+  const auto program = load(
+      "module m\ngraph frame(surface backbuffer: rgba8 64x64) {\n buffer words : u32[64]\n pass zero : transfer { fill words 0 }\n"
+      " pass one : compute { update words as storage disjoint }\n"
+      " pass two : raster { write words as storage in fragment disjoint  color backbuffer clear 0 }\n"
+      " pass look : raster { read words as storage in fragment  color backbuffer clear 0 }\n}\n");
+  ASSERT_TRUE(program);
+  PlanData plan = compiler::plan_frame(*program, kGraph, {}, {}).plan;
+  const auto findings = [&] { return verify::verify(*program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, {}); };
+  EXPECT_TRUE(findings().empty());
+  const auto filled = std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), [](const BufferBarrier& b) { return b.src_accesses == access::transfer_write; });
+  ASSERT_NE(filled, plan.buffer_barriers.end());
+  ASSERT_NE(filled->dst_stages & stage::fragment_shader, 0u);
+  filled->dst_stages &= ~stage::fragment_shader;
+  EXPECT_FALSE(findings().empty());
+}
+
 TEST(PlannerFuzz, ShrinkingKeepsTheFailure) {
   const std::string text = "a\nb\nc\nneedle\nd\n";
   EXPECT_EQ(shrink(text, [](const std::string& less) { return less.find("needle") != std::string::npos; }), "needle\n");

@@ -175,6 +175,29 @@ TEST(Queues, MemoryGoesOnlyToWhoeverComesAfter) {
     }
 }
 
+// What `waste` wrote last is over when the other queue starts, but only a signal that names its stage says so: `blurred` takes its memory then.
+TEST(Queues, SignalsNameWhatMemoryNeeds) {
+  const char* body =
+      "image dead : rgba16f 1024x1024\n image drawn : rgba16f 1024x1024\n image blurred : rgba16f 1024x1024\n image long : rgba16f 2048x1024\n"
+      "pass waste : compute { write dead as storage  keep }\n"
+      "pass draw : raster { color drawn clear 0  draw host {} }\n"
+      "pass blur : compute queue compute may { read drawn as sampled  write blurred as storage  after waste }\n"
+      "pass meanwhile : raster { color long clear 0  draw host {} }\n"
+      "pass show : raster { read blurred as sampled in fragment  read long as sampled in fragment  color backbuffer clear 0  draw host {} }\n";
+  const FramePlan frame = plan_of(body, kTwo);
+  ASSERT_EQ(pass_named(frame.plan, "blur").queue, 1u);
+  const Plan view = frame.plan.view();
+  EXPECT_TRUE(alias::Sharing(view).may_share(resource_named(frame.plan, "dead"), resource_named(frame.plan, "blurred")));
+  EXPECT_EQ(frame.heap_bytes, frame.lower_bound_bytes);
+  const Batch& first = frame.plan.batches[0];
+  EXPECT_NE(frame.plan.signals[first.first_signal].stages & stage::compute_shader, 0u);
+  EXPECT_EQ(frame.unproved, 0u);
+  PlanOptions alone = kTwo;
+  alone.aliasing = false;
+  const FramePlan apart = plan_of(body, alone);
+  EXPECT_EQ(apart.plan.signals[apart.plan.batches[0].first_signal].stages & stage::compute_shader, 0u) << "nothing to take over, nothing to name";
+}
+
 TEST(PassCost, MeasuredTimesReplaceEstimates) {
   const FramePlan estimated = plan_of(kOverlap, {.queues = kTwo.queues});
   EXPECT_GT(estimated.overlap.serial, 5 * kLaunchNs);

@@ -51,14 +51,14 @@ const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
 inline constexpr rg::Figures kFigures =
-    {.passes = 3, .shaders = 4, .pipelines = 2, .barrier_groups = 2, .image_barriers = 5, .batches = 1, .heap_bytes = 131072,
-     .unaliased_bytes = 131072, .lower_bound_bytes = 131072};
+    {.passes = 3, .shaders = 4, .pipelines = 2, .barrier_groups = 3, .image_barriers = 5, .batches = 1, .heap_bytes = 65536,
+     .unaliased_bytes = 131072, .lower_bound_bytes = 65536};
 
 // By index of Plan::passes and Plan::resources; rg::overlap, rg::runs_before, rg::share_bytes and rg::lifetime read them.
 inline constexpr rg::PassFigures kPassFigures[] = {
-    {.group = 1, .barriers = 4},  // marks
-    {.position = 1, .group = 1},  // slices
-    {.position = 2, .group = 1},  // show
+    {.group = 1, .barriers = 2},  // marks
+    {.position = 1, .group = 2, .barriers = 2},  // slices
+    {.position = 2, .group = 2},  // show
 };
 inline constexpr rg::ShaderFigures kShaderFigures[] = {
     {.instructions = 21, .alu = 3, .live_scalars = 4},  // marks
@@ -70,7 +70,7 @@ inline constexpr rg::ResourceFigures kResourceFigures[] = {
     {.bytes = 256},  // scene_places
     {.bytes = 65536, .first = 2, .last = 2},  // backbuffer
     {.bytes = 65536, .transient = true},  // mask
-    {.bytes = 65536, .offset = 65536, .transient = true, .first = 1, .last = 1},  // fog
+    {.bytes = 65536, .transient = true, .first = 1, .last = 1},  // fog
     {.bytes = 256},  // indices
 };
 // Indices of Plan::passes.

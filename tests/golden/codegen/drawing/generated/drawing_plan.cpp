@@ -51,7 +51,7 @@ constexpr Resource kResources[] = {
     {.name = "mask", .format = Format{130}, .width = 1, .height = 2, .layers = 2, .aspects = aspect_depth | aspect_stencil, .usage = 32,
      .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 11, .file = "drawing.rg"},
     {.name = "fog", .dimension = Dimension::d3, .format = Format{98}, .width = 3, .height = 3, .depth = 4, .aspects = aspect_color, .usage = 16,
-     .mutable_format = true, .estimated_bytes = 65536, .estimated_alignment = 65536, .estimated_offset = 65536, .line = 12, .file = "drawing.rg"},
+     .mutable_format = true, .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 12, .file = "drawing.rg"},
     {.name = "indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::persistent, .usage = 66, .bytes = 15, .stride = 2, .layout = 1948121759,
      .init = InitKind::clear, .estimated_bytes = 256, .line = 13, .file = "drawing.rg"},
 };
@@ -91,9 +91,6 @@ constexpr VertexBuffer kVertexBuffers[] = {
 };
 
 constexpr ImageBarrier kImageBarriers[] = {
-    {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::copy,
-     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
-     .new_layout = Layout::color_attachment},  // frame start -> show
     {.image = {.resource = resource::mask}, .range = {.aspects = aspect_depth},
      .src_stages = stage::early_fragment_tests | stage::late_fragment_tests, .src_accesses = access::depth_stencil_attachment_write,
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
@@ -104,6 +101,9 @@ constexpr ImageBarrier kImageBarriers[] = {
      .dst_stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .dst_accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .old_layout = Layout::undefined,
      .new_layout = Layout::stencil_attachment},  // frame start -> marks
+    {.image = {.resource = resource::backbuffer}, .range = {.aspects = aspect_color}, .src_stages = stage::copy,
+     .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write, .old_layout = Layout::undefined,
+     .new_layout = Layout::color_attachment},  // frame start -> show
     {.image = {.resource = resource::fog}, .range = {.aspects = aspect_color}, .src_stages = stage::color_attachment_output,
      .src_accesses = access::color_attachment_write, .dst_stages = stage::color_attachment_output, .dst_accesses = access::color_attachment_write,
      .old_layout = Layout::undefined, .new_layout = Layout::color_attachment},  // frame start -> slices
@@ -113,7 +113,8 @@ constexpr ImageBarrier kImageBarriers[] = {
 };
 
 constexpr BarrierGroup kGroups[] = {
-    {.image_count = 4},  // before marks  drawing.rg:14
+    {.image_count = 2},  // before marks  drawing.rg:14
+    {.first_image = 2, .image_count = 2},  // before slices  drawing.rg:26
     {.first_image = 4, .image_count = 1},  // at the end of the frame
 };
 
@@ -149,21 +150,21 @@ constexpr Boundary kExit[] = {
 };
 
 constexpr Acquire kAcquires[] = {
-    {.resource = resource::mask, .group = 0, .image_barrier = 1, .image_barriers = 2,
+    {.resource = resource::mask, .group = 0, .image_barrier = 0, .image_barriers = 2,
      .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_read | access::depth_stencil_attachment_write, .first_clock = 0},
-    {.resource = resource::fog, .group = 0, .image_barrier = 3, .image_barriers = 1, .stages = stage::color_attachment_output,
-     .accesses = access::color_attachment_write, .first_clock = 2},
+    {.resource = resource::fog, .group = 1, .image_barrier = 3, .image_barriers = 1, .stages = stage::color_attachment_output,
+     .accesses = access::color_attachment_write, .point = 1, .first_clock = 2},
 };
 
 constexpr Release kReleases[] = {
     {.resource = resource::mask, .stages = stage::early_fragment_tests | stage::late_fragment_tests,
      .accesses = access::depth_stencil_attachment_write, .point = 1},
-    {.resource = resource::fog, .stages = stage::color_attachment_output, .accesses = access::color_attachment_write, .point = 1},
+    {.resource = resource::fog, .stages = stage::color_attachment_output, .accesses = access::color_attachment_write, .point = 2},
 };
 
 constexpr Index kAliasClocks[] = {
-    0, 2, 0, 2,
+    0, 3, 1, 3,
 };
 
 constexpr Queue kQueues[] = {
@@ -173,13 +174,14 @@ constexpr Queue kQueues[] = {
 constexpr Step kSteps[] = {
     {.kind = StepKind::barriers, .index = 0},
     {.kind = StepKind::pass, .index = pass::marks},
+    {.kind = StepKind::barriers, .index = 1},
     {.kind = StepKind::pass, .index = pass::slices},
     {.kind = StepKind::pass, .index = pass::show},
-    {.kind = StepKind::barriers, .index = 1},
+    {.kind = StepKind::barriers, .index = 2},
 };
 
 constexpr Batch kBatches[] = {
-    {.step_count = 5},
+    {.step_count = 6},
 };
 
 constexpr Attachment kAttachments[] = {
@@ -244,7 +246,7 @@ constexpr Plan kPlan =
      .groups = kGroups, .image_barriers = kImageBarriers, .entry = kEntry, .exit = kExit, .acquires = kAcquires, .releases = kReleases,
      .alias_clocks = kAliasClocks, .passes = kPasses, .accesses = kAccesses, .renderings = kRenderings, .attachments = kAttachments,
      .shaders = kShaders, .pipelines = kPipelines, .pipeline_shaders = kPipelineShaders, .blends = kBlends, .vertex_buffers = kVertexBuffers,
-     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .needs = kNeeds, .estimated_heap_bytes = 131072};
+     .vertex_bindings = kVertexBindings, .vertex_attributes = kVertexAttributes, .needs = kNeeds, .estimated_heap_bytes = 65536};
 
 }  // namespace
 
