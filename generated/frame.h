@@ -432,6 +432,7 @@ concept FrameRecorder = requires(R& recorder) {
   recorder.hologram(std::declval<HologramPass&>());
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -690,7 +691,7 @@ inline constexpr rg::Index bloom_up_3 = 60;
 inline constexpr rg::Index bloom_up_4 = 61;
 inline constexpr rg::Index bloom_up_5 = 62;
 inline constexpr rg::Index tonemap = 63;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
@@ -741,8 +742,10 @@ inline constexpr rg::Index color = 43;
 inline constexpr rg::Index bloom = 44;
 inline constexpr rg::Index deferred_light_arguments = 45;
 inline constexpr rg::Index deferred_light_tiles = 46;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
