@@ -75,6 +75,7 @@ inline constexpr int32_t DEBUG_COUNT = 19;
 namespace spectrum {
 // passes/lighting/lighting.rg:11
 struct light_features {
+  static constexpr std::string_view name = "light_features";
   static constexpr std::string_view features[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};  // by bit of a mask
   static constexpr uint32_t kernels[] = {0x1, 0x16, 0x53, 0x9f, 0x1a1, 0xb7, 0x1bf, 0x1ff};  // the masks they serve, in the order in which they are tried
 };

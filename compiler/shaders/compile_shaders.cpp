@@ -309,12 +309,13 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
   }
 
   const Specialisations all = collect_specialisations(space, work, results, good);
-  const std::vector<Words> words = specialise(all.jobs, results, options);
+  const Specialised modules = specialise(all.jobs, results, options);
+  builder.bundle.complete = modules.complete;
   for (size_t i = 0; i < graph.passes.size(); ++i) {
     PassShaders& target = builder.bundle.passes[i];
     target.variants.resize(space.configurations);
     target.selecting = space.selecting.empty() ? std::vector<std::vector<size_t>>(space.configurations) : space.selecting[i];
-    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], words, target, builder, diagnostics);
+    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], modules.words, target, builder, diagnostics);
   }
   builder.bundle.read_files = sources.readable_paths();
   return std::move(builder.bundle);
