@@ -108,7 +108,10 @@ struct GraphicsState {
   VkPipelineTessellationStateCreateInfo tessellation{};
   VkPipelineViewportStateCreateInfo viewport{};
   VkPipelineRasterizationStateCreateInfo raster{};
+  VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
   VkPipelineMultisampleStateCreateInfo multisample{};
+  VkPipelineSampleLocationsStateCreateInfoEXT locations{};
+  std::vector<VkSampleLocationEXT> sample_locations;
   VkPipelineDepthStencilStateCreateInfo depth{};
   VkPipelineColorBlendStateCreateInfo blend{};
   VkPipelineDynamicStateCreateInfo dynamic{};
@@ -161,6 +164,26 @@ void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsS
   state.depth.back = stencil_state(in.stencil_back);
 }
 
+// What the device has been asked for, see fits_device.
+void fill_device_state(const Plan& plan, const RasterState& in, const Rendering& rendering, GraphicsState& state) {
+  state.depth.depthBoundsTestEnable = in.depth_bounds ? VK_TRUE : VK_FALSE;
+  state.depth.minDepthBounds = in.depth_min;
+  state.depth.maxDepthBounds = in.depth_max;
+  if (in.conservative) {
+    state.conservative.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
+    state.conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
+    state.raster.pNext = &state.conservative;
+  }
+  if (in.sample_location_count == 0) return;
+  for (const SampleLocation& at : plan.sample_locations.subspan(in.first_sample_location, in.sample_location_count))
+    state.sample_locations.push_back({at.x, at.y});
+  state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
+  state.locations.sampleLocationsEnable = VK_TRUE;
+  state.locations.sampleLocationsInfo = {VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT, nullptr, static_cast<VkSampleCountFlagBits>(rendering.samples), {1, 1},
+                                         static_cast<uint32_t>(state.sample_locations.size()), state.sample_locations.data()};
+  state.multisample.pNext = &state.locations;
+}
+
 void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
   for (uint32_t i = 0; i < rendering.color_count; ++i)
     state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
@@ -191,6 +214,7 @@ Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipel
   GraphicsState state;
   fill_vertex_input(context.plan, pipeline, state);
   fill_raster(pipeline, rendering, state);
+  fill_device_state(context.plan, pipeline.raster, rendering, state);
   fill_blend(context.plan, pipeline, rendering, state);
   fill_rendering(context, rendering, pass, state);
   VkGraphicsPipelineCreateInfo info{};

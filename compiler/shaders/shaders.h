@@ -40,6 +40,7 @@ struct CompiledShader {
 struct PassShaders {
   std::vector<size_t> shaders;                             // indices of ShaderBundle::shaders, in stage order, of the first live row
   std::vector<std::vector<std::vector<size_t>>> variants;  // the same by configuration and selector; empty where there is no live row
+  std::vector<std::vector<std::vector<uint32_t>>> values;  // of Pass::features, by configuration and selector, beside `variants`
   std::vector<std::vector<size_t>> selecting;              // by configuration: the features that make the selector, indices into Pass::features
   std::vector<uint32_t> access_stages;                     // Stage bits per Pass::accesses: who really uses it; 0: not a shader access
   std::vector<uint32_t> params_stages;                     // Stage bits per Pass::params
