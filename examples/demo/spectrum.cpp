@@ -7,12 +7,9 @@ namespace {
 
 using Features = frame::spectrum::light_features;
 
-// One more round is for the driver, which compiles when something is used first.
-constexpr int kRounds = 3;
-
-Status time_kernel(Renderer& renderer, const Scene& scene, const NamedCamera& camera, const FrameSettings& settings, size_t kernel, double weight,
-                   SpectrumProfile& profile) {
-  for (int round = 0; round <= kRounds; ++round) {
+Status time_kernel(Renderer& renderer, const Scene& scene, const NamedCamera& camera, const FrameSettings& settings, size_t kernel, int rounds,
+                   double weight, SpectrumProfile& profile) {
+  for (int round = 0; round <= rounds; ++round) {  // the first is for the driver, which compiles when something is used first
     if (Status drawn = renderer.render(make_frame(scene, camera, settings)); !drawn) return drawn;
     if (Status idle = renderer.graph().wait_idle(); !idle) return idle;
     const auto masks = renderer.graph().tile_features();
@@ -37,10 +34,11 @@ Status record_tiles(Renderer& renderer, std::string_view camera, double weight, 
   return Done{};
 }
 
-Status time_kernels(Renderer& renderer, const Scene& scene, const NamedCamera& camera, FrameSettings settings, double weight, SpectrumProfile& profile) {
+Status time_kernels(Renderer& renderer, const Scene& scene, const NamedCamera& camera, FrameSettings settings, int rounds, double weight,
+                    SpectrumProfile& profile) {
   for (size_t kernel = 0; kernel < std::size(Features::kernels); ++kernel) {
     settings.forced_features = Features::kernels[kernel];
-    if (Status timed = time_kernel(renderer, scene, camera, settings, kernel, weight, profile); !timed) return timed;
+    if (Status timed = time_kernel(renderer, scene, camera, settings, kernel, rounds, weight, profile); !timed) return timed;
   }
   return Done{};
 }

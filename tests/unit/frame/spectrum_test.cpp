@@ -124,7 +124,7 @@ TEST(LightSpectrum, EveryKernelIsTimedOnTheTilesThatItCanServe) {
   ASSERT_TRUE(renderer) << renderer.error().message;
   SpectrumProfile profile(kernels_of<Features>());
   const FrameSettings settings{.width = kWidth, .height = kHeight, .jitter = false, .noise = false, .animate = false};
-  const Status timed = demo::time_kernels(*renderer, plaza(), plaza().cameras[0], settings, 1, profile);
+  const Status timed = demo::time_kernels(*renderer, plaza(), plaza().cameras[0], settings, 1, 1, profile);
   ASSERT_TRUE(timed) << timed.error().message;
   const auto costs = profile.costs();
   ASSERT_GE(costs.size(), 4u);
