@@ -55,6 +55,16 @@ std::optional<double> frame_ns(GraphInstance& graph, const FrameInputs& inputs) 
   return good ? std::optional(ms * 1e6 / kFrames) : std::nullopt;
 }
 
+// Of a frame over functions that do nothing.
+std::optional<double> overhead_ns(const Plan& plan, const FrameInputs& inputs, bool timestamps) {
+  Result<Device> device = still_device();
+  if (!device) return std::nullopt;
+  GraphOptions options;
+  options.timestamps = timestamps;
+  Result<GraphInstance> graph = GraphInstance::create(*device, plan, options);
+  return graph ? frame_ns(*graph, inputs) : std::nullopt;
+}
+
 uint64_t calls_of_a_frame(const Plan& plan, const FrameInputs& inputs) {
   Result<Device> device = still_device(true);
   if (!device) return 0;
@@ -66,18 +76,13 @@ uint64_t calls_of_a_frame(const Plan& plan, const FrameInputs& inputs) {
 }
 
 void add_overhead(const std::string& graph_name, const Plan& plan, Rows& rows) {
-  Result<Device> device = still_device();
-  if (!device) return;
-  GraphOptions options;
-  options.timestamps = false;
-  Result<GraphInstance> graph = GraphInstance::create(*device, plan, options);
-  if (!graph) return;
   Inputs inputs;
   fill(plan, inputs);
-  const auto ns = frame_ns(*graph, inputs.frame);
-  if (!ns) return;
+  const auto plain = overhead_ns(plan, inputs.frame, false), timed = overhead_ns(plan, inputs.frame, true);
+  if (!plain || !timed) return;
   const auto passes = static_cast<double>(plan.passes.size());
-  rows.push_back({"runtime/" + graph_name + "/overhead", *ns / passes, "ns", 15, "a pass, empty callbacks, functions that do nothing; the bound of the project"});
+  rows.push_back({"runtime/" + graph_name + "/overhead", *plain / passes, "ns", 15, "a pass, empty callbacks, functions that do nothing; the bound of the project"});
+  rows.push_back({"runtime/" + graph_name + "/overhead_timed", *timed / passes, "ns", *plain / passes, "... with two timestamps a pass, beside without"});
   rows.push_back({"runtime/" + graph_name + "/calls", static_cast<double>(calls_of_a_frame(plan, inputs.frame)), "count", {}, "Vulkan calls of one frame"});
 }
 

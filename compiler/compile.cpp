@@ -57,7 +57,7 @@ std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const d
         if (spectrum.members[i].name == name) force |= Mask{1} << i;
     if (force == before) diagnostics.report(dsl::DiagnosticKind::UnknownName, {}, {"feature of a spectrum", name});
   }
-  const SpectrumOptions spectrum_options{options.spectrum_profile, options.spectrum_modes, force, cache, options.workers, options.progress};
+  const SpectrumOptions spectrum_options{options.spectrum_profile, options.spectrum_modes, force, cache, options.workers, options.progress, options.earlier};
   return resolve_spectra(result.program, shader_reader(root_path, read), replaced, result.sources, spectrum_options, diagnostics);
 }
 
@@ -88,7 +88,7 @@ CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::Rea
   tell(options, "shaders of " + name);
   CompiledGraph graph{id, {}, {}, expand_configurations(result.program, id, options.fixed_features, options.max_plans, diagnostics), {}};
   const auto progress = [&](std::string_view what) { tell(options, name + ": " + std::string(what)); };
-  const ShaderOptions shader_options{cache, options.workers, progress};
+  const ShaderOptions shader_options{cache, options.workers, progress, options.preview ? ShaderEffort::preview : ShaderEffort::product};
   graph.space = find_variant_space(result.program, id, graph.configurations, diagnostics);
   graph.shaders = compile_shaders(result.program, id, graph.space, shader_reader(root_path, read), result.sources, shader_options, diagnostics);
   return graph;
@@ -176,6 +176,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   const std::optional<ShaderCache> cache =
       options.cache_folder.empty() ? std::nullopt : std::optional<ShaderCache>(std::in_place, options.cache_folder, options.cache_bytes);
   result.spectra = choose_kernels(root_path, read, options, cache ? &*cache : nullptr, result, diagnostics);
+  for (const SpectrumChoice& choice : result.spectra) result.complete = result.complete && !choice.provisional;
   if (diagnostics.has_errors()) return result;
   result.program = expand_spectra(std::move(result.program), kernel_sets(result.spectra));
 
@@ -190,6 +191,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (options.list_tasks || options.shards > 0) return run_tasks(root_path, read, options, cache ? &*cache : nullptr, std::move(result), diagnostics);
   for (size_t g = 0; g < result.program.graphs.size(); ++g)
     result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics));
+  for (const CompiledGraph& graph : result.graphs) result.complete = result.complete && graph.shaders.complete;
   if (cache) result.cache = settle(*cache, diagnostics);
   result.read_files = paths_read(root_path, result, profiles);
   for (const std::string& path : block_files) result.read_files.push_back(in_folder_of(root_path, path));

@@ -35,6 +35,8 @@ struct CompileOptions {
   dsl::ReadSource read_profile;                    // reads that file; empty: the reader of the sources
   std::optional<uint32_t> spectrum_modes;          // replaces their numbers of kernels
   std::vector<std::string> forced_features;        // of spectra: on in every mask
+  bool preview = false;                                        // soon rather than good, see ShaderEffort; CompileResult::complete says what it came to
+  const std::vector<SpectrumChoice>* earlier = nullptr;        // for a preview: of an earlier build, see SpectrumOptions::earlier
   bool fuse = true;                                // false: every block is a kernel of its own
   HalfRounding halves = HalfRounding::zero;        // of images on the devices this is for; see fusion/conversions.h
   std::string command;                             // as it shall stand in the banner of generated files
@@ -62,6 +64,7 @@ struct CompileResult {
   std::vector<std::string> read_files;  // sources and shader files, for a depfile
   std::vector<ShaderTask> tasks;        // of all graphs, where they were asked for
   ShaderCache::Counts cache;            // what the cache gave and took
+  bool complete = true;                 // false: it runs and draws the same, but was made in a hurry, or for kernels that are to be chosen anew
 };
 
 // Reads `root_path` and everything it names. After an error was reported the later tables are empty.

@@ -52,6 +52,7 @@ struct PlanData {
   std::vector<VertexBuffer> vertex_buffers;
   std::vector<VertexBinding> vertex_bindings;
   std::vector<VertexAttribute> vertex_attributes;
+  std::vector<SampleLocation> sample_locations;
   std::vector<Binding> bindings;
   std::vector<Sampler> samplers;
   std::vector<Params> params;

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "dsl/check_state.h"
+#include "dsl/features.h"
 #include "dsl/reserved.h"
 
 namespace rg::dsl {
@@ -241,9 +242,48 @@ void check_amount(const Rules& rules) {
     if (greatest(rules, count) > kMostVertices) return report("draws " + std::to_string(greatest(rules, count)) + what, kMostVertices);
 }
 
+bool has_feature_of(const Rules& rules, Capability capability) {
+  return std::any_of(rules.pass.features.begin(), rules.pass.features.end(), [&](const ShaderFeature& feature) {
+    return feature.feature.valid() && rules.checker.program.features[feature.feature].capability == capability;
+  });
+}
+
+// What not every device has holds where a feature of the pass says that the device does: one has to.
+void check_capabilities(const Rules& rules, const State& state) {
+  static constexpr std::pair<Capability, const char*> kNames[] = {{Capability::depth_bounds, "depth_bounds"},
+                                                                  {Capability::conservative_rasterization, "conservative_rasterization"},
+                                                                  {Capability::sample_locations, "sample_locations"}};
+  for (const auto& [capability, name] : kNames) {
+    if (!asks(state, capability) || has_feature_of(rules, capability)) continue;
+    const std::string way_out = std::string("declare `feature NAME : device ") + name + "` and name it in `features` of the pass: where a device has none, the pass draws without";
+    rules.checker.report(DiagnosticKind::BeyondProfile, rules.pass.span, {"state `" + state.name + "`", name, "vulkan 1.3", way_out})
+        .note(DiagnosticKind::DeclaredHere, state.span, {state.name});
+  }
+}
+
+// Why such a state cannot be used by this pass; empty: it can.
+std::string unfit(const Rules& rules, const State& state) {
+  const auto attachment_of = [&](Role role) {
+    return std::find_if(rules.pass.accesses.begin(), rules.pass.accesses.end(), [&](const Access& access) { return access.role == role; });
+  };
+  const auto none = rules.pass.accesses.end();
+  const bool depth = attachment_of(Role::depth) != none || attachment_of(Role::depth_readonly) != none;
+  if (state.depth_bounds && !depth) return "its bounds are of a depth attachment, which the pass has not";
+  if (state.conservative && state.topology != Topology::triangles && state.topology != Topology::triangle_strip) return "only triangles are rasterised conservatively";
+  if (state.sample_locations.empty()) return {};
+  if (depth) return "it places samples, and depth is kept for the device's own";
+  const auto color = attachment_of(Role::color);
+  const size_t samples = color == none ? 1 : rules.resource(*color).samples;
+  if (samples == state.sample_locations.size()) return {};
+  return "it places " + std::to_string(state.sample_locations.size()) + " samples, and its attachments have " + std::to_string(samples);
+}
+
 void check_state(const Rules& rules) {
   if (!rules.pass.state.valid()) return;
   const State& state = rules.checker.program.states[rules.pass.state];
+  check_capabilities(rules, state);
+  if (const std::string why = unfit(rules, state); !why.empty())
+    rules.checker.report(DiagnosticKind::StateUnfit, rules.pass.span, {state.name, rules.pass.name, why}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});
   const bool has = std::any_of(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return access.role == Role::stencil; });
   if (state.stencil_test && !has)
     rules.checker.report(DiagnosticKind::StencilMissing, rules.pass.span, {rules.pass.name, state.name}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});

@@ -1,4 +1,6 @@
 // Samplers, states, features, conditions, sets of the engine.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "dsl/check_state.h"
@@ -94,6 +96,28 @@ void read_bias(Checker& checker, uint32_t module, const ast::Setting& setting, S
   state.depth_bias_slope = static_cast<float>(slope.value_or(0));
 }
 
+// A number from 0 to 1; reports others.
+float read_share(Checker& checker, uint32_t module, const ast::Expr& expr) {
+  const auto value = evaluate_number(checker, nullptr, module, expr);
+  if (!value) return 0;
+  if (*value < 0 || *value > 1) checker.report(DiagnosticKind::OutOfRange, expr.span, {fmt::format("{}", *value), "0", "1"});
+  return static_cast<float>(*value);
+}
+
+void read_bounds(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
+  if (setting.values.size() != 2) return;
+  state.depth_bounds = true;
+  state.depth_min = read_share(checker, module, setting.values[0]);
+  state.depth_max = read_share(checker, module, setting.values[1]);
+  if (state.depth_max < state.depth_min)
+    checker.report(DiagnosticKind::OutOfRange, setting.values[1].span, {fmt::format("{}", state.depth_max), fmt::format("{}", state.depth_min), "1"});
+}
+
+void read_sample_locations(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
+  for (size_t i = 0; i + 1 < setting.values.size(); i += 2)
+    state.sample_locations.push_back({read_share(checker, module, setting.values[i]), read_share(checker, module, setting.values[i + 1])});
+}
+
 void read_stencil_setting(Checker& checker, uint32_t module, const ast::Setting& setting, StencilFace& face) {
   const std::string_view word = setting.second.text;
   if (word == "test") read_word(checker, setting, kCompares, face.compare);
@@ -126,6 +150,9 @@ void read_state_setting(Checker& checker, uint32_t module, const ast::Setting& s
   if (word == "topology") read_word(checker, setting, kTopologies, state.topology);
   if (word == "bias") read_bias(checker, module, setting, state);
   if (word == "alpha_to_coverage") state.alpha_to_coverage = true;
+  if (word == "conservative") state.conservative = true;
+  if (word == "samples") read_sample_locations(checker, module, setting, state);
+  if (word == "depth" && setting.second.text == "bounds") read_bounds(checker, module, setting, state);
   if (word == "depth" && setting.second.text == "write") read_word(checker, setting, kSwitches, state.depth_write);
   if (word == "depth" && setting.second.text == "test") state.depth_test = read_word(checker, setting, kCompares, state.depth_compare);
 }

@@ -70,6 +70,15 @@ bool allowed(const Table<FeatureId, Feature>& features, const FeatureValues& val
   return true;
 }
 
+bool asks(const State& state, Capability capability) {
+  switch (capability) {
+    case Capability::depth_bounds: return state.depth_bounds;
+    case Capability::conservative_rasterization: return state.conservative;
+    case Capability::sample_locations: return !state.sample_locations.empty();
+    default: return false;
+  }
+}
+
 bool holds(const Guard& guard, const FeatureValues& values) {
   return std::all_of(guard.terms.begin(), guard.terms.end(),
                      [&](const Guard::Term& term) { return (values[term.feature.value] == term.value) != term.negated; });

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dsl/source.h"
 
@@ -43,6 +44,10 @@ struct StencilFace {  // what the triangles that face one way do to stencil
   uint8_t reference = 0;
   friend bool operator==(const StencilFace&, const StencilFace&) = default;
 };
+struct SampleLocation {
+  float x = 0, y = 0;  // from the upper left corner
+  friend bool operator==(const SampleLocation&, const SampleLocation&) = default;
+};
 struct State {
   std::string name;
   Cull cull = Cull::back;
@@ -55,6 +60,11 @@ struct State {
   bool alpha_to_coverage = false;
   bool stencil_test = false;
   StencilFace stencil_front, stencil_back;
+  // What not every device has: it holds in those variants of a pass in which a feature of the pass says that the device does.
+  bool depth_bounds = false;
+  float depth_min = 0, depth_max = 1;
+  bool conservative = false;
+  std::vector<SampleLocation> sample_locations;  // in the pixel, one a sample; empty: the device's own
   Span span;
   friend bool operator==(const State&, const State&) = default;
 };

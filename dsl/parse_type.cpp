@@ -51,7 +51,9 @@ ast::Setting parse_setting(Parser& parser, const SettingShape& shape) {
   setting.word = parser.take_name();
   if (!shape.second.empty()) setting.second = parser.take_name();
   for (uint8_t i = 0; i < shape.names && !parser.silent; ++i) setting.names.push_back(parser.expect_name("a word"));
-  for (uint8_t i = 0; i < shape.values && !parser.silent; ++i) setting.values.push_back(parse_expression(parser, "a number"));
+  do
+    for (uint8_t i = 0; i < shape.values && !parser.silent; ++i) setting.values.push_back(parse_expression(parser, "a number"));
+  while (shape.repeats && !parser.silent && parser.accept(TokenKind::comma));
   setting.span = parser.since(begin);
   return setting;
 }

@@ -93,6 +93,7 @@ ast::TypeName parse_type(Parser& parser);
 struct SettingShape {  // of one setting: its word, the second word where it has one, how many words and numbers follow
   std::string_view word, second;
   uint8_t names = 0, values = 0;
+  bool repeats = false;  // the numbers may follow again behind a comma
 };
 // `{ setting setting ... }` of a sampler or a state.
 std::vector<ast::Setting> parse_settings(Parser& parser, std::initializer_list<SettingShape> shapes, const char* what);

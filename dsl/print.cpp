@@ -98,11 +98,18 @@ std::string stencil_text(const StencilFace& face) {
                      word(kStencilOps, face.depth_fail), word(kStencilOps, face.pass), face.read_mask, face.write_mask, face.reference);
 }
 
+std::string device_text(const State& state) {
+  std::string text = state.conservative ? " conservative" : "";
+  if (state.depth_bounds) text += fmt::format(" bounds {} {}", state.depth_min, state.depth_max);
+  for (const SampleLocation& at : state.sample_locations) text += fmt::format(" sample {} {}", at.x, at.y);
+  return text;
+}
+
 void print_state(Printer& at, const State& state) {
   at.line("state {} cull {} front {} depth test {} write {} bias {} {} topology {}{}", state.name, word(kCulls, state.cull),
           state.front_clockwise ? "clockwise" : "counter_clockwise", state.depth_test ? word(kCompares, state.depth_compare) : "off",
           state.depth_write ? "on" : "off", state.depth_bias_constant, state.depth_bias_slope, word(kTopologies, state.topology),
-          state.alpha_to_coverage ? " alpha_to_coverage" : "");
+          (state.alpha_to_coverage ? " alpha_to_coverage" : "") + device_text(state));
   if (!state.stencil_test) return;
   at.line("  stencil front {}", stencil_text(state.stencil_front));
   at.line("  stencil back {}", stencil_text(state.stencil_back));

@@ -75,6 +75,7 @@ inline constexpr int32_t DEBUG_COUNT = 19;
 namespace spectrum {
 // passes/lighting/lighting.rg:11
 struct light_features {
+  static constexpr std::string_view name = "light_features";
   static constexpr std::string_view features[] = {"round_spots", "square_spots", "shadows", "soft_shadows", "pictures", "areas", "tubes", "darkness", "clip_planes"};  // by bit of a mask
   static constexpr uint32_t kernels[] = {0x1, 0x16, 0x53, 0x9f, 0x1a1, 0xb7, 0x1bf, 0x1ff};  // the masks they serve, in the order in which they are tried
 };
@@ -432,6 +433,7 @@ concept FrameRecorder = requires(R& recorder) {
   recorder.hologram(std::declval<HologramPass&>());
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -690,7 +692,7 @@ inline constexpr rg::Index debug_view = 60;
 inline constexpr rg::Index expose = 61;
 inline constexpr rg::Index bloom_up_5 = 62;
 inline constexpr rg::Index tonemap = 63;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
@@ -741,8 +743,10 @@ inline constexpr rg::Index color = 43;
 inline constexpr rg::Index bloom = 44;
 inline constexpr rg::Index deferred_light_arguments = 45;
 inline constexpr rg::Index deferred_light_tiles = 46;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});

@@ -1,9 +1,11 @@
 #include "runtime/barriers.h"
 
 #include <numeric>
+#include <optional>
 
 #include "runtime/queues.h"
 #include "runtime/resolve.h"
+#include "runtime/wait_reach.h"
 
 namespace rg {
 
@@ -95,20 +97,25 @@ void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelin
     stages |= other.src_stages, accesses |= other.src_accesses;
   }
 }
-// The same where an image that queues share changes its layout behind a wait: the writes of all passes that the wait may stand for.
+// The same where an image that queues share changes its layout behind a wait: the writes of the passes of other queues that something waits for. Those of the
+// group's own queue, and those that nothing waits for, are the plan's to name: a hazard is reported.
 Stages stages_of(const DeviceQueue& queue) {
   if ((queue.flags & VK_QUEUE_GRAPHICS_BIT) != 0) return ~Stages{0};
   return stage::copy | stage::clear | ((queue.flags & VK_QUEUE_COMPUTE_BIT) != 0 ? stage::compute_shader : stage::none);
 }
-void name_shared_writes(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
+void name_shared_writes(const Context& context, const WaitReach& reach, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
   if (!context.plan.resources[in.image.resource].concurrent || in.src_accesses != 0 || in.old_layout == Layout::undefined) return;
   const Stages possible = stages_of(queue_of(context, context.queues.of_group[group]));
-  for (const Access& access : context.plan.accesses)
-    if (access.ref == in.image && access.writes && (access.stages & ~possible) == 0) out.srcStageMask |= access.stages, out.srcAccessMask |= access.accesses & kWrites;
+  for (Index p = 0; p < context.plan.passes.size(); ++p) {
+    const Pass& pass = context.plan.passes[p];
+    if (!reach.comes_after(group, p)) continue;
+    for (const Access& access : context.plan.accesses.subspan(pass.first_access, pass.access_count))
+      if (access.ref == in.image && access.writes && (access.stages & ~possible) == 0) out.srcStageMask |= access.stages, out.srcAccessMask |= access.accesses & kWrites;
+  }
 }
-void repeat_release(const Context& context, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
-  if (!context.device.validating) return;
-  if (in.src_queue == kNone) return name_shared_writes(context, group, in, out);
+void repeat_release(const Context& context, const WaitReach* reach, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {
+  if (reach == nullptr) return;
+  if (in.src_queue == kNone) return name_shared_writes(context, *reach, group, in, out);
   const bool releases = context.queues.of_group[group] == in.src_queue, transfers = changes_family(context, in.src_queue, in.dst_queue);
   if (releases && transfers && out.dstStageMask == 0) out.dstStageMask = out.srcStageMask;  // it loses a release that nothing comes after
   if (releases || transfers) return;
@@ -124,10 +131,11 @@ struct Patches {
   };
   std::vector<Scope> images;                 // by Plan::image_barriers
   std::vector<const MemoryBarrier*> groups;  // by Plan::groups; null: nothing
+  std::optional<WaitReach> reach;            // while the validation layer watches
 };
 
 Patches make_patches(const Plan& plan, const alias::HandOffs& hand_offs) {
-  Patches patches{std::vector<Patches::Scope>(plan.image_barriers.size()), std::vector<const MemoryBarrier*>(plan.groups.size())};
+  Patches patches{std::vector<Patches::Scope>(plan.image_barriers.size()), std::vector<const MemoryBarrier*>(plan.groups.size()), {}};
   for (const alias::GroupPatch& patch : hand_offs.groups) patches.groups[patch.group] = &patch.memory;
   for (const alias::ImagePatch& patch : hand_offs.images)
     for (Index i = patch.first; i < patch.first + patch.count; ++i)
@@ -146,7 +154,7 @@ void add_images(const Context& context, const Sized& sized, Index index, const P
     VkImageMemoryBarrier2& out = table.images.emplace_back(translate(context, barrier, image, range));
     out.srcStageMask |= patches.images[i].stages;
     out.srcAccessMask |= patches.images[i].accesses;
-    repeat_release(context, index, barrier, out);
+    repeat_release(context, patches.reach ? &*patches.reach : nullptr, index, barrier, out);
   }
 }
 
@@ -219,7 +227,8 @@ void spell_out_execution(GroupTable& table) {
 void create_barriers(const Context& context, Sized& sized) {
   alias::HandOffs hand_offs;
   alias::find_hand_offs(context.plan, sized.placed, hand_offs);
-  const Patches patches = make_patches(context.plan, hand_offs);
+  Patches patches = make_patches(context.plan, hand_offs);
+  if (context.device.validating) patches.reach.emplace(context.plan);
   sized.groups.resize(context.plan.groups.size());
   for (Index g = 0; g < sized.groups.size(); ++g) {
     const BarrierGroup& group = context.plan.groups[g];

@@ -51,6 +51,17 @@ uint32_t subgroup_capabilities(const Device::State& state) {
   return bits & ~state.without;
 }
 
+bool places_samples(const Device::State& state) {
+  VkPhysicalDeviceSampleLocationsPropertiesEXT locations{};
+  locations.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SAMPLE_LOCATIONS_PROPERTIES_EXT;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &locations;
+  state.vk.GetPhysicalDeviceProperties2(state.physical, &properties);
+  const VkSampleCountFlags attachments = properties.properties.limits.framebufferColorSampleCounts & ~static_cast<VkSampleCountFlags>(VK_SAMPLE_COUNT_1_BIT);
+  return (attachments & ~locations.sampleLocationSampleCounts) == 0;
+}
+
 bool draws_every_view(const Device::State& state) {
   constexpr unsigned kSound = 25;  // of Mesa, the oldest that was seen to; the driver's own version is 1 in all of them
   VkPhysicalDeviceDriverProperties driver{};

@@ -19,6 +19,9 @@ uint32_t subgroup_capabilities(const Device::State& state);
 // False where the driver says that it has multiview and draws the first view alone: lavapipe of Mesa 22.3.
 bool draws_every_view(const Device::State& state);
 
+// Whether attachments of every number of samples take locations of one's own, where the extension is there.
+bool places_samples(const Device::State& state);
+
 uint32_t enabled_capabilities(const EnabledFeatures& features);
 
 }  // namespace rg

@@ -153,7 +153,7 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, co
 
 namespace {
 
-Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options) {
+Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options, const Predecessor* before) {
   RG_TRY(check_plan(plan));
   RG_TRY(check_options(plan, options));
   auto state = std::make_unique<GraphInstance::State>(make_context(device, plan, options));
@@ -164,7 +164,7 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
   state->features.resize(plan.features.size());
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));
-  RG_TRY(create_pass_objects(state->context, state->objects));
+  RG_TRY(create_pass_objects(state->context, before, state->objects));
   RG_TRY(create_frames(*state));
   return state;
 }
@@ -172,7 +172,7 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
 }  // namespace
 
 Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
-  Result<std::unique_ptr<State>> state = create_state(device.state(), plan, options);
+  Result<std::unique_ptr<State>> state = create_state(device.state(), plan, options, nullptr);
   if (!state) return state.error();
   const std::vector<int64_t> initial = initial_extents(plan);
   RG_TRY(rebuild(**state, options.extents.empty() ? std::span<const int64_t>(initial) : options.extents));
@@ -182,7 +182,8 @@ Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, co
 Result<GraphInstance> GraphInstance::create_successor(GraphInstance& current, const Plan& plan, const GraphOptions& options) {
   State& before = *current.state_;
   if (before.context.device.lost) return Error{ErrorCode::device_lost, "the device was lost"};
-  Result<std::unique_ptr<State>> state = create_state(before.context.device, plan, options);
+  const Predecessor predecessor{before.context, before.objects};
+  Result<std::unique_ptr<State>> state = create_state(before.context.device, plan, options, &predecessor);
   if (!state) return state.error();
   State& after = **state;
   after.frame = before.frame;

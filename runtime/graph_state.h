@@ -44,6 +44,11 @@ struct RenderingPart {
   bool first = true, last = true;
 };
 
+using SharedPipeline = std::shared_ptr<const UniquePipeline>;  // of instances that follow each other
+struct MadePipeline {
+  Index row = kNone;  // in Plan::pipelines
+  SharedPipeline pipeline;
+};
 struct PassObjects {
   std::string name, module;
   VkDebugUtilsLabelEXT label{}, module_label{};  // of these names
@@ -54,8 +59,8 @@ struct PassObjects {
   RenderingPart part;
   UniqueRenderPass render_pass;        // only where classic render passes are recorded
   UniqueRenderPass whole_render_pass;  // where the pass is the first of several in a rendering
-  UniquePipeline pipeline;
-  std::vector<UniquePipeline> more_pipelines;  // of other shader variants
+  std::vector<MadePipeline> pipelines;  // each once
+  VkPipeline pipeline = VK_NULL_HANDLE;  // one of them; that of the initial features where the device has it
   std::vector<VkPipeline> choices;             // by combination of feature values; null: excluded
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
 };

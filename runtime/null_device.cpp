@@ -150,11 +150,13 @@ struct Null<Tag, void (*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
 
 template <class Tag, class Info>
 struct Null<Tag, VkResult (*)(VkDevice, VkPipelineCache, uint32_t, const Info*, const VkAllocationCallbacks*, VkPipeline*)> {
-  static VkResult call(VkDevice device, VkPipelineCache, uint32_t count, const Info*, const VkAllocationCallbacks*, VkPipeline* pipelines) {
+  static VkResult call(VkDevice device, VkPipelineCache, uint32_t count, const Info* infos, const VkAllocationCallbacks*, VkPipeline* pipelines) {
     NullDevice& null = owner(device);
     const std::lock_guard lock(null.mutex);
     NullLine line(null.log);
     begin_line(line, Tag::name, device, count);
+    if constexpr (PrintableStruct<Info>)
+      for (uint32_t i = 0; i < count; ++i) print_struct(line, infos[i]);
     const bool fails = null.fails();
     for (uint32_t i = 0; i < count; ++i) pipelines[i] = fails ? VkPipeline(VK_NULL_HANDLE) : new_handle<VkPipeline>(null);
     for (uint32_t i = 0; i < count && !fails; ++i) null.born(pipelines[i]);

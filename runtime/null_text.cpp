@@ -70,6 +70,23 @@ void print_struct(NullLine& line, const VkDependencyInfo& info) {
   }
 }
 
+void print_struct(NullLine& line, const VkGraphicsPipelineCreateInfo& info) {
+  const auto chained = [](const auto* state) {
+    return state == nullptr || state->pNext == nullptr ? VK_STRUCTURE_TYPE_MAX_ENUM : static_cast<const VkBaseInStructure*>(state->pNext)->sType;
+  };
+  if (info.pDepthStencilState != nullptr && info.pDepthStencilState->depthBoundsTestEnable == VK_TRUE) {
+    line.text(" [depth bounds "), line.real(info.pDepthStencilState->minDepthBounds), line.text(" "), line.real(info.pDepthStencilState->maxDepthBounds);
+    line.text("]");
+  }
+  if (chained(info.pRasterizationState) == VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT) line.text(" [conservative]");
+  if (chained(info.pMultisampleState) != VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT) return;
+  const auto& locations = static_cast<const VkPipelineSampleLocationsStateCreateInfoEXT*>(info.pMultisampleState->pNext)->sampleLocationsInfo;
+  line.text(" [samples at");
+  for (uint32_t i = 0; i < locations.sampleLocationsCount; ++i)
+    line.text(i == 0 ? " " : ", "), line.real(locations.pSampleLocations[i].x), line.text(" "), line.real(locations.pSampleLocations[i].y);
+  line.text("]");
+}
+
 void print_struct(NullLine& line, const VkRenderingInfo& info) {
   print_struct(line, info.renderArea);
   pair(line, " layers ", info.layerCount);

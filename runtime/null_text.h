@@ -88,6 +88,7 @@ void print_struct(NullLine& line, const VkRect2D& info);
 void print_struct(NullLine& line, const VkClearColorValue& info);
 void print_struct(NullLine& line, const VkClearDepthStencilValue& info);
 void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info);
+void print_struct(NullLine& line, const VkGraphicsPipelineCreateInfo& info);  // what only some devices can
 void print_struct(NullLine& line, const VkDescriptorSet& info);
 void print_struct(NullLine& line, const VkBuffer& info);
 void print_struct(NullLine& line, const VkWriteDescriptorSet& info);

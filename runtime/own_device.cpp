@@ -299,7 +299,7 @@ Status create_device(Device::State& state, const DeviceOptions& options) {
   found.multiview = wanted.v11.multiview == VK_TRUE && draws_every_view(state);
   found.depth_bounds = wanted.core.features.depthBounds == VK_TRUE;
   found.conservative_rasterization = enabled(VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
-  found.sample_locations = enabled(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME);
+  found.sample_locations = enabled(VK_EXT_SAMPLE_LOCATIONS_EXTENSION_NAME) && places_samples(state);
   VkPhysicalDeviceFragmentShaderBarycentricFeaturesKHR barycentrics{};
   barycentrics.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR;
   barycentrics.pNext = &wanted.core;

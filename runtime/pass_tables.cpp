@@ -41,7 +41,7 @@ void fill_info(const Context& context, const Sized& sized, const Pass& pass, con
   info.name = objects.name;
   info.color_formats = objects.color_formats;
   info.layout = objects.layout.get();
-  info.pipeline = objects.pipeline.get();
+  info.pipeline = objects.pipeline;
   info.set_layout = objects.set_layout.get();
   info.render_pass = objects.render_pass.get();
   info.extent = {table.x, table.y};
@@ -95,7 +95,7 @@ void fill_rows(const Context& context, const Objects& objects, Sized& sized) {
     const PassTable& table = sized.passes[i];
     PassRow& row = sized.rows.emplace_back();
     row.guard = pass.guard;
-    row.pipeline = objects.passes[i].pipeline.get();
+    row.pipeline = objects.passes[i].pipeline;
     row.host_slot = pass.host_slot;
     row.work = pass.work.kind;
     row.runs = table.runs;

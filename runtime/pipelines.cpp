@@ -108,7 +108,10 @@ struct GraphicsState {
   VkPipelineTessellationStateCreateInfo tessellation{};
   VkPipelineViewportStateCreateInfo viewport{};
   VkPipelineRasterizationStateCreateInfo raster{};
+  VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
   VkPipelineMultisampleStateCreateInfo multisample{};
+  VkPipelineSampleLocationsStateCreateInfoEXT locations{};
+  std::vector<VkSampleLocationEXT> sample_locations;
   VkPipelineDepthStencilStateCreateInfo depth{};
   VkPipelineColorBlendStateCreateInfo blend{};
   VkPipelineDynamicStateCreateInfo dynamic{};
@@ -161,6 +164,26 @@ void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsS
   state.depth.back = stencil_state(in.stencil_back);
 }
 
+// What the device has been asked for, see fits_device.
+void fill_device_state(const Plan& plan, const RasterState& in, const Rendering& rendering, GraphicsState& state) {
+  state.depth.depthBoundsTestEnable = in.depth_bounds ? VK_TRUE : VK_FALSE;
+  state.depth.minDepthBounds = in.depth_min;
+  state.depth.maxDepthBounds = in.depth_max;
+  if (in.conservative) {
+    state.conservative.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
+    state.conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
+    state.raster.pNext = &state.conservative;
+  }
+  if (in.sample_location_count == 0) return;
+  for (const SampleLocation& at : plan.sample_locations.subspan(in.first_sample_location, in.sample_location_count))
+    state.sample_locations.push_back({at.x, at.y});
+  state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
+  state.locations.sampleLocationsEnable = VK_TRUE;
+  state.locations.sampleLocationsInfo = {VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT, nullptr, static_cast<VkSampleCountFlagBits>(rendering.samples), {1, 1},
+                                         static_cast<uint32_t>(state.sample_locations.size()), state.sample_locations.data()};
+  state.multisample.pNext = &state.locations;
+}
+
 void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
   for (uint32_t i = 0; i < rendering.color_count; ++i)
     state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
@@ -191,6 +214,7 @@ Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipel
   GraphicsState state;
   fill_vertex_input(context.plan, pipeline, state);
   fill_raster(pipeline, rendering, state);
+  fill_device_state(context.plan, pipeline.raster, rendering, state);
   fill_blend(context.plan, pipeline, rendering, state);
   fill_rendering(context, rendering, pass, state);
   VkGraphicsPipelineCreateInfo info{};
@@ -251,19 +275,21 @@ bool fits_device(const Context& context, const Pass& pass, uint32_t selector) {
 }
 
 // The pipeline of the pass, and those that other feature values choose; each once.
-Status create_pipelines(const Context& context, const Pass& pass, Shaders& shaders, PassObjects& out) {
-  std::vector<std::pair<Index, VkPipeline>> known = {{kNone, VK_NULL_HANDLE}};
+Status create_pipelines(const Context& context, const Pass& pass, const PipelineReuse& reuse, Shaders& shaders, PassObjects& out) {
   const auto find = [&](Index index) -> Result<VkPipeline> {
-    for (const auto& [number, handle] : known)
-      if (number == index) return handle;
-    Result<UniquePipeline> made = create_pipeline(context, pass, index, shaders, out);
-    if (!made) return made.error();
-    known.emplace_back(index, made->get());
-    if (index == pass.pipeline)
-      out.pipeline = std::move(*made);
-    else
-      out.more_pipelines.push_back(std::move(*made));
-    return known.back().second;
+    if (index == kNone) return VkPipeline(VK_NULL_HANDLE);
+    for (const MadePipeline& made : out.pipelines)
+      if (made.row == index) return made.pipeline->get();
+    SharedPipeline pipeline = reuse.find(pass, index, out);
+    if (pipeline == nullptr) {
+      Result<UniquePipeline> made = create_pipeline(context, pass, index, shaders, out);
+      if (!made) return made.error();
+      pipeline = std::make_shared<const UniquePipeline>(std::move(*made));
+    }
+    out.pipelines.push_back({index, std::move(pipeline)});
+    const VkPipeline handle = out.pipelines.back().pipeline->get();
+    if (index == pass.pipeline || out.pipeline == VK_NULL_HANDLE) out.pipeline = handle;
+    return handle;
   };
   if (pass.choice_count == 0)
     if (const Result<VkPipeline> own = find(pass.pipeline); !own) return own.error();
@@ -273,7 +299,6 @@ Status create_pipelines(const Context& context, const Pass& pass, Shaders& shade
     if (!handle) return handle.error();
     out.choices.push_back(*handle);
   }
-  if (!out.pipeline && !out.more_pipelines.empty()) out.pipeline = std::move(out.more_pipelines.back()), out.more_pipelines.pop_back();
   return Done{};
 }
 
@@ -296,7 +321,8 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   return Done{};
 }
 
-Status create_one(const Context& context, const Objects& objects, const Pass& pass, uint32_t module_number, Shaders& shaders, PassObjects& out) {
+Status create_one(const Context& context, const Objects& objects, const Pass& pass, uint32_t module_number, const PipelineReuse& reuse, Shaders& shaders,
+                  PassObjects& out) {
   out.name = pass.name;
   out.module = pass.module;
   out.module_number = module_number;
@@ -307,7 +333,7 @@ Status create_one(const Context& context, const Objects& objects, const Pass& pa
     out.set_layout = std::move(*layout);
   }
   RG_TRY(create_layout(context, objects, pass, out));
-  return pass.pipeline == kNone ? Status(Done{}) : create_pipelines(context, pass, shaders, out);
+  return pass.pipeline == kNone ? Status(Done{}) : create_pipelines(context, pass, reuse, shaders, out);
 }
 
 // By pass, so that recording compares numbers and not names.
@@ -324,18 +350,19 @@ std::vector<uint32_t> module_numbers(const Plan& plan) {
 
 }  // namespace
 
-Status create_pass_objects(const Context& context, Objects& objects) {
+Status create_pass_objects(const Context& context, const Predecessor* before, Objects& objects) {
   static_assert(kPassSet == 1);
   Result<UniqueSetLayout> empty = create_set_layout(context, {}, context.plan.name);
   if (!empty) return empty.error();
   objects.empty_set_layout = std::move(*empty);
   objects.passes.resize(context.plan.passes.size());
   Shaders shaders(context.plan.shaders.size());
+  const PipelineReuse reuse(context, before);
   const std::vector<uint32_t> modules = module_numbers(context.plan);
   const std::vector<RenderingPart> parts = find_parts(context.plan);
   for (size_t i = 0; i < context.plan.passes.size(); ++i) {
     objects.passes[i].part = parts[i];
-    RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], shaders, objects.passes[i]));
+    RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], reuse, shaders, objects.passes[i]));
     PassObjects& pass = objects.passes[i];
     pass.label.sType = pass.module_label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
     pass.label.pLabelName = pass.name.c_str(), pass.module_label.pLabelName = pass.module.c_str();

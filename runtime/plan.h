@@ -250,7 +250,13 @@ struct RasterState {
   bool alpha_to_coverage = false;
   bool stencil_test = false;
   StencilFace stencil_front = {}, stencil_back = {};
+  // For devices that can: only pipelines that such a device chooses say so, see Pass::first_choice.
+  bool depth_bounds = false;
+  float depth_min = 0, depth_max = 1;
+  bool conservative = false;                                    // VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT
+  Index first_sample_location = 0, sample_location_count = 0;   // in Plan::sample_locations; 0: the device's own
 };
+struct SampleLocation { float x = 0, y = 0; };  // in the pixel, from 0 to 1
 // A pipeline the runtime builds. Attachment formats and samples come from the pass's Rendering.
 struct Pipeline {
   std::string_view name = {};
@@ -432,6 +438,7 @@ struct Plan {
   std::span<const Pipeline> pipelines = {};
   std::span<const Index> pipeline_shaders = {};
   std::span<const ColorBlend> blends = {};
+  std::span<const SampleLocation> sample_locations = {};
   std::span<const VertexBuffer> vertex_buffers = {};
   std::span<const VertexBinding> vertex_bindings = {};
   std::span<const VertexAttribute> vertex_attributes = {};

@@ -161,6 +161,7 @@ void check_pipelines(const Plan& plan, Checker& c) {
     c.that(pipeline.shader_count >= 1, "pipeline", i, "no shader");
     c.range(pipeline.first_shader, pipeline.shader_count, plan.pipeline_shaders.size(), "pipeline", i, "shaders");
     c.range(pipeline.first_blend, pipeline.blend_count, plan.blends.size(), "pipeline", i, "blends");
+    c.range(pipeline.raster.first_sample_location, pipeline.raster.sample_location_count, plan.sample_locations.size(), "pipeline", i, "sample locations");
     c.range(pipeline.first_vertex_binding, pipeline.vertex_binding_count, plan.vertex_bindings.size(), "pipeline", i, "vertex bindings");
     c.range(pipeline.first_vertex_attribute, pipeline.vertex_attribute_count, plan.vertex_attributes.size(), "pipeline", i, "vertex attributes");
   }

@@ -78,7 +78,9 @@ RG_PLAN_ROW(VertexBuffer, ref, offset);
 RG_PLAN_ROW(VertexBinding, stride, per_instance);
 RG_PLAN_ROW(StencilFace, fail, pass, depth_fail, compare, read_mask, write_mask, reference);
 RG_PLAN_ROW(RasterState, cull, front_clockwise, depth_test, depth_write, depth_compare, depth_bias_constant, depth_bias_slope, topology,
-            alpha_to_coverage, stencil_test, stencil_front, stencil_back);
+            alpha_to_coverage, stencil_test, stencil_front, stencil_back, depth_bounds, depth_min, depth_max, conservative, first_sample_location,
+            sample_location_count);
+RG_PLAN_ROW(SampleLocation, x, y);
 RG_PLAN_ROW(Pipeline, name, pass, first_shader, shader_count, raster, first_blend, blend_count, first_vertex_binding, vertex_binding_count,
             first_vertex_attribute, vertex_attribute_count);
 RG_PLAN_ROW(Binding, binding, type, stages, ref, range, bytes, view, arrayed, view_format, layout, sampler, params);
@@ -102,7 +104,7 @@ RG_PLAN_ROW(FeatureCondition, condition, feature, values);
 RG_PLAN_ROW(Culled, pass, reason);
 RG_PLAN_ROW(Plan, version, name, variant, variant_count, variant_name, exprs, extents, resources, queues, batches, steps, waits, signals, groups,
             memory_barriers, image_barriers, buffer_barriers, entry, exit, acquires, releases, alias_clocks, passes, accesses, renderings, attachments,
-            shaders, pipelines, pipeline_shaders, blends, vertex_buffers, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
+            shaders, pipelines, pipeline_shaders, blends, sample_locations, vertex_buffers, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
             pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions, feature_conditions, needs, culled, estimated_heap_bytes);
 #undef RG_PLAN_ROW
 

@@ -1,33 +1,12 @@
 #include "runtime/profile.h"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "runtime/json_text.h"
 
 namespace rg {
 
 namespace {
-
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    char escaped[8];
-    if (c == '"' || c == '\\') {
-      out += '\\', out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      std::snprintf(escaped, sizeof escaped, "\\u%04x", c);
-      out += escaped;
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", value);
-  return text;
-}
 
 std::string queue_name(const Plan& plan, Index queue) {
   static constexpr const char* kKinds[] = {"graphics", "compute", "transfer"};
@@ -44,10 +23,10 @@ std::string statistics_json(const PassStatistics& s) {
 }  // namespace
 
 std::string profile_json(GraphInstance& graph) {
-  std::string text = "{\n  \"schema\": \"rgc-profile-1\",\n  \"graph\": " + quoted(graph.plan().name) + ",\n  \"passes_us\": {";
+  std::string text = "{\n  \"schema\": \"rgc-profile-1\",\n  \"graph\": " + json_quoted(graph.plan().name) + ",\n  \"passes_us\": {";
   bool first = true;
   for (const PassTime& time : graph.pass_times()) {
-    text += (first ? "\n    " : ",\n    ") + quoted(time.pass) + ": " + number(time.ms * 1000);
+    text += (first ? "\n    " : ",\n    ") + json_quoted(time.pass) + ": " + json_number(time.ms * 1000);
     first = false;
   }
   return text + "\n  }\n}\n";
@@ -75,14 +54,14 @@ std::string ChromeTrace::json() const {
   text += "{\"ph\": \"M\", \"pid\": 1, \"name\": \"process_name\", \"args\": {\"name\": \"GPU\"}}";
   for (size_t queue = 0; queue < queues_.size(); ++queue)
     text += ",\n{\"ph\": \"M\", \"pid\": 1, \"tid\": " + std::to_string(queue + 1) + ", \"name\": \"thread_name\", \"args\": {\"name\": " +
-            quoted("queue " + queues_[queue]) + "}}";
+            json_quoted("queue " + queues_[queue]) + "}}";
   text += ",\n{\"ph\": \"M\", \"pid\": 1, \"tid\": 0, \"name\": \"thread_name\", \"args\": {\"name\": \"frames\"}}";
   for (size_t frame = 0; frame + 1 < frames_us_.size(); ++frame)
-    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": 0, \"name\": \"frame " + std::to_string(frame) + "\", \"ts\": " + number(frames_us_[frame]) +
-            ", \"dur\": " + number(frames_us_[frame + 1] - frames_us_[frame]) + "}";
+    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": 0, \"name\": \"frame " + std::to_string(frame) + "\", \"ts\": " + json_number(frames_us_[frame]) +
+            ", \"dur\": " + json_number(frames_us_[frame + 1] - frames_us_[frame]) + "}";
   for (const Slice& slice : slices_)
-    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": " + std::to_string(slice.queue + 1) + ", \"name\": " + quoted(slice.name) + ", \"cat\": " +
-            quoted(slice.module.empty() ? "pass" : slice.module) + ", \"ts\": " + number(slice.begin_us) + ", \"dur\": " + number(slice.duration_us) +
+    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": " + std::to_string(slice.queue + 1) + ", \"name\": " + json_quoted(slice.name) + ", \"cat\": " +
+            json_quoted(slice.module.empty() ? "pass" : slice.module) + ", \"ts\": " + json_number(slice.begin_us) + ", \"dur\": " + json_number(slice.duration_us) +
             ", \"args\": " + statistics_json(slice.statistics) + "}";
   return text + "\n]}\n";
 }

@@ -173,10 +173,10 @@ void record_shared(FrameRecording& r, Index index, const PassRow& row, bool runs
   if (r.in_rendering && row.ends_rendering) end_attachments(r, row);
 }
 
-// Whether anything but the frame and its labels is recorded, or not in the usual form.
+// Whether anything but the frame, its labels and timestamps is recorded, or not in the usual form.
 bool is_watched(const FrameRecording& r) {
   const GraphInstance::State& state = r.state;
-  if (r.queries != VK_NULL_HANDLE || r.statistics != VK_NULL_HANDLE) return true;
+  if (r.statistics != VK_NULL_HANDLE) return true;
   if (state.context.serial || state.context.submit_per_pass || state.context.device.classic_render_passes) return true;
   return std::any_of(state.dumps.begin(), state.dumps.end(), [](const DumpRequest& dump) { return !dump.recorded; });
 }

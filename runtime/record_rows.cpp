@@ -143,7 +143,7 @@ void choose_step_rows(const Objects& objects, Sized& sized) {
 
 namespace {
 
-template <bool labelled>
+template <bool labelled, bool timed>
 void walk(FrameRecording& r, std::span<const StepRow> rows) {
   const DeviceFunctions& vk = r.vk;  // known here to stay the same over the calls
   const VkCommandBuffer commands = r.commands;
@@ -153,7 +153,9 @@ void walk(FrameRecording& r, std::span<const StepRow> rows) {
       if (r.module != row.labels->module_number) change_module(r, *row.labels);
       vk.CmdBeginDebugUtilsLabelEXT(commands, &row.labels->label);
     }
+    if (timed && row.labels != nullptr) vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_NONE, r.queries, 2 * row.pass);
     row.record(r, row);
+    if (timed && row.labels != nullptr) vk.CmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, r.queries, 2 * row.pass + 1);
     if (labelled && row.labels != nullptr) vk.CmdEndDebugUtilsLabelEXT(commands);
   }
 }
@@ -161,7 +163,11 @@ void walk(FrameRecording& r, std::span<const StepRow> rows) {
 }  // namespace
 
 void record_rows(FrameRecording& r, std::span<const StepRow> rows) {
-  r.vk.CmdBeginDebugUtilsLabelEXT != nullptr ? walk<true>(r, rows) : walk<false>(r, rows);
+  const bool labelled = r.vk.CmdBeginDebugUtilsLabelEXT != nullptr, timed = r.queries != VK_NULL_HANDLE;
+  if (labelled)
+    timed ? walk<true, true>(r, rows) : walk<true, false>(r, rows);
+  else
+    timed ? walk<false, true>(r, rows) : walk<false, false>(r, rows);
 }
 
 }  // namespace rg

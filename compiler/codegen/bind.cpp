@@ -8,6 +8,7 @@
 #include "compiler/format_table.h"
 #include "compiler/shaders/interface.h"
 #include "dsl/check_macro.h"
+#include "dsl/features.h"
 #include "dsl/format_table.h"
 #include "dsl/layout.h"
 
@@ -71,7 +72,31 @@ StencilFace convert(const dsl::StencilFace& face, bool writes) {
   return {op(face.fail), op(face.pass), op(face.depth_fail), static_cast<Compare>(face.compare), face.read_mask, writes ? face.write_mask : 0u, face.reference};
 }
 
-RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
+// Bits of the capabilities that the state of the pass uses where its features have these values.
+uint32_t device_state(const dsl::Program& program, const dsl::Pass& pass, const std::vector<uint32_t>& values) {
+  uint32_t bits = 0;
+  for (size_t i = 0; i < pass.features.size(); ++i) {
+    const dsl::FeatureId feature = pass.features[i].feature;
+    if (!feature.valid() || !pass.state.valid() || values[i] != 1) continue;
+    const dsl::Capability capability = program.features[feature].capability;
+    if (dsl::asks(program.states[pass.state], capability)) bits |= 1u << static_cast<uint32_t>(capability);
+  }
+  return bits;
+}
+
+// What only some devices can, in a variant of the pass for those.
+void add_device_state(PlanData& plan, const dsl::State& state, uint32_t capabilities, RasterState& raster) {
+  const auto can = [&](dsl::Capability capability) { return (capabilities >> static_cast<uint32_t>(capability) & 1) != 0; };
+  raster.depth_bounds = can(dsl::Capability::depth_bounds);
+  if (raster.depth_bounds) raster.depth_min = state.depth_min, raster.depth_max = state.depth_max;
+  raster.conservative = can(dsl::Capability::conservative_rasterization);
+  if (!can(dsl::Capability::sample_locations)) return;
+  raster.first_sample_location = static_cast<Index>(plan.sample_locations.size());
+  raster.sample_location_count = static_cast<uint32_t>(state.sample_locations.size());
+  for (const dsl::SampleLocation& at : state.sample_locations) plan.sample_locations.push_back({at.x, at.y});
+}
+
+RasterState raster_state(PlanData& plan, const dsl::Program& program, const dsl::Pass& pass, uint32_t capabilities) {
   const dsl::State state = pass.state.valid() ? program.states[pass.state] : dsl::State{};
   RasterState raster;
   // The generated triangle has one side.
@@ -85,6 +110,7 @@ RasterState raster_state(const dsl::Program& program, const dsl::Pass& pass) {
   raster.topology = is_fullscreen(pass) ? convert(dsl::Topology::triangles) : convert(state.topology);
   raster.alpha_to_coverage = state.alpha_to_coverage;
   raster.stencil_test = state.stencil_test;
+  add_device_state(plan, state, capabilities, raster);
   if (!state.stencil_test) return raster;
   raster.stencil_front = convert(state.stencil_front, may_write(pass, dsl::Role::stencil));
   raster.stencil_back = convert(state.stencil_back, may_write(pass, dsl::Role::stencil));
@@ -239,7 +265,7 @@ Index add_shader(Binder& b, size_t shader) {
   return at->second;
 }
 
-Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const std::vector<size_t>& shaders) {
+Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const std::vector<size_t>& shaders, uint32_t capabilities) {
   Pipeline pipeline;
   pipeline.name = b.plan.passes[pass_index].name;
   pipeline.pass = pass_index;
@@ -247,7 +273,7 @@ Index add_pipeline(Binder& b, Index pass_index, const dsl::Pass& source, const s
   for (const size_t shader : shaders) b.plan.pipeline_shaders.push_back(add_shader(b, shader));
   pipeline.shader_count = static_cast<uint32_t>(shaders.size());
   if (source.kind == dsl::PassKind::raster) {
-    pipeline.raster = raster_state(b.program, source);
+    pipeline.raster = raster_state(b.plan, b.program, source, capabilities);
     pipeline.first_blend = static_cast<Index>(b.plan.blends.size());
     for (const dsl::Access& access : source.accesses)
       if (access.role == dsl::Role::color) b.plan.blends.push_back(convert(access.blend));
@@ -272,11 +298,17 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
 void add_pipelines(Binder& b, Index pass_index, const dsl::Pass& source, const PassShaders& shaders) {
   if (b.configuration >= shaders.variants.size() || shaders.variants[b.configuration].empty()) return;
   const auto& selected = shaders.variants[b.configuration];
-  std::map<std::vector<size_t>, Index> known = {{{}, kNone}};
+  std::map<std::pair<std::vector<size_t>, uint32_t>, Index> known;
   std::vector<Index> choices;
-  for (const std::vector<size_t>& each : selected) {
-    const auto found = known.find(each);
-    choices.push_back(found != known.end() ? found->second : known.emplace(each, add_pipeline(b, pass_index, source, each)).first->second);
+  for (size_t s = 0; s < selected.size(); ++s) {
+    if (selected[s].empty()) {
+      choices.push_back(kNone);
+      continue;
+    }
+    const uint32_t capabilities = device_state(b.program, source, shaders.values[b.configuration][s]);
+    const auto [at, is_new] = known.try_emplace({selected[s], capabilities}, kNone);
+    if (is_new) at->second = add_pipeline(b, pass_index, source, selected[s], capabilities);
+    choices.push_back(at->second);
   }
   Pass& pass = b.plan.passes[pass_index];
   const auto first = std::find_if(choices.begin(), choices.end(), [](Index choice) { return choice != kNone; });
@@ -337,6 +369,7 @@ void clear_tables(PlanData& plan) {
   plan.pipelines.clear();
   plan.pipeline_shaders.clear();
   plan.blends.clear();
+  plan.sample_locations.clear();
   plan.vertex_bindings.clear();
   plan.vertex_attributes.clear();
   plan.bindings.clear();

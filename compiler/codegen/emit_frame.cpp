@@ -55,7 +55,7 @@ void indices(CppWriter& out, const char* scope, const char* what, const std::vec
   out.line(std::string("// ") + what);
   out.line(std::string("namespace ") + scope + " {");
   for (size_t i = 0; i < names.size(); ++i) out.line("inline constexpr rg::Index " + names[i] + " = " + std::to_string(i) + ";");
-  out.line("}").line();
+  out.line(std::string("}  // namespace ") + scope).line();
 }
 
 void figures(CppWriter& out, const FramePlan& frame) {
@@ -201,6 +201,8 @@ void record_function(CppWriter& out) {
 
 void frame_class(CppWriter& out, const FrameApi& api) {
   const std::string& name = api.class_name;
+  out.line("// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and");
+  out.line("// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.");
   out.line("class " + name + " : public rg::TypedFrame {");
   out.line(" public:");
   out.line("  static rg::Result<" + name + "> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});");
@@ -326,6 +328,7 @@ std::string emit_declarations(const FrameApi& api, const FramePlan& plan) {
   member_struct(out, "Conditions", "Latched when the frame is recorded.", api.conditions, " = {}");
   features(out, api.features);
   recorder(out, api);
+  out.line("// What the class below runs, as data: for tools, and for PlanFile and check_interface.");
   out.line("const rg::Plan& plan();").line();
   figures(out, plan);
   figure_tables(out, api, plan);

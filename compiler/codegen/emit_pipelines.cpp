@@ -33,6 +33,10 @@ Row raster_row(const RasterState& state) {
   if (state.depth_bias_constant != 0) row.field("depth_bias_constant", cpp_float(state.depth_bias_constant));
   if (state.depth_bias_slope != 0) row.field("depth_bias_slope", cpp_float(state.depth_bias_slope));
   row.number("topology", state.topology, 3).flag("alpha_to_coverage", state.alpha_to_coverage);
+  row.flag("depth_bounds", state.depth_bounds);
+  if (state.depth_bounds) row.field("depth_min", cpp_float(state.depth_min)).field("depth_max", cpp_float(state.depth_max));
+  row.flag("conservative", state.conservative);
+  slice(row, "first_sample_location", state.first_sample_location, "sample_location_count", state.sample_location_count);
   if (!state.stencil_test) return row;
   return row.flag("stencil_test", true).nested("stencil_front", stencil_row(state.stencil_front)).nested("stencil_back", stencil_row(state.stencil_back));
 }
@@ -118,6 +122,8 @@ void PlanEmitter::pipelines() {
   });
   list(out_, "Index", "kPipelineShaders", numbers(plan_.pipeline_shaders));
   table("ColorBlend", "kBlends", plan_.blends, [](const ColorBlend& b, size_t) { return blend_row(b); });
+  table("SampleLocation", "kSampleLocations", plan_.sample_locations,
+        [](const SampleLocation& s, size_t) { return Row().field("x", cpp_float(s.x)).field("y", cpp_float(s.y)); });
   table("VertexBinding", "kVertexBindings", plan_.vertex_bindings,
         [](const VertexBinding& b, size_t) { return Row().number("stride", b.stride).flag("per_instance", b.per_instance); });
   table("VertexAttribute", "kVertexAttributes", plan_.vertex_attributes, [](const VertexAttribute& a, size_t) {

@@ -292,6 +292,7 @@ void PlanEmitter::plan() {
   RG_TABLE(pipelines, kPipelines);
   RG_TABLE(pipeline_shaders, kPipelineShaders);
   RG_TABLE(blends, kBlends);
+  RG_TABLE(sample_locations, kSampleLocations);
   RG_TABLE(vertex_buffers, kVertexBuffers);
   RG_TABLE(vertex_bindings, kVertexBindings);
   RG_TABLE(vertex_attributes, kVertexAttributes);

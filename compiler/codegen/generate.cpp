@@ -136,6 +136,7 @@ std::string spectra_text(const dsl::Program& program, const dsl::SourceFiles& fi
     for (const dsl::Spectrum::Member& member : spectrum.members) features += fmt::format("{}\"{}\"", features.empty() ? "" : ", ", member.name);
     for (const uint32_t set : spectrum.kernels) kernels += fmt::format("{}{:#x}", kernels.empty() ? "" : ", ", set);
     text += fmt::format("// {}\nstruct {} {{\n", origin(files, spectrum.span), cpp_name(spectrum.name));
+    text += fmt::format("  static constexpr std::string_view name = \"{}\";\n", spectrum.name);
     text += fmt::format("  static constexpr std::string_view features[] = {{{}}};  // by bit of a mask\n", features);
     text += fmt::format("  static constexpr uint32_t kernels[] = {{{}}};  // the masks they serve, in the order in which they are tried\n}};\n", kernels);
   }

@@ -24,6 +24,14 @@ std::vector<double> curve_of(const compiler::SpectrumChoice& choice) {
   return costs;
 }
 
+std::string name_of(compiler::CostSource source) {
+  switch (source) {
+    case compiler::CostSource::times: return "times";
+    case compiler::CostSource::both: return "times and statistics";
+    default: return "statistics";
+  }
+}
+
 SpectrumFacts facts_of(const dsl::Program& program, const compiler::SpectrumChoice& choice) {
   const dsl::Spectrum& spectrum = program.spectra[choice.spectrum];
   const compiler::ModeChoice& c = choice.choice;
@@ -31,7 +39,7 @@ SpectrumFacts facts_of(const dsl::Program& program, const compiler::SpectrumChoi
   facts.name = spectrum.name, facts.pass = choice.pass;
   for (const dsl::Spectrum::Member& member : spectrum.members) facts.features.push_back(member.name);
   facts.measured = choice.profile.has_value();
-  facts.timed = choice.profile && !choice.profile->costs.empty();
+  facts.costs = name_of(choice.source);
   if (choice.profile) facts.scenes = choice.profile->scenes, facts.tiles = choice.profile->tiles;
   facts.expected = c.expected, facts.bound = c.bound, facts.exact = c.exact;
   facts.one_kernel = c.one_kernel, facts.kernel_per_mask = c.kernel_per_mask;
@@ -88,7 +96,7 @@ nlohmann::ordered_json names_json(const SpectrumFacts& facts, uint32_t set) {
 nlohmann::ordered_json json_of(const SpectrumFacts& facts) {
   nlohmann::ordered_json json = {{"spectrum", facts.name},         {"pass", facts.pass},
                                  {"features", facts.features},     {"measured", facts.measured},
-                                 {"costs", facts.timed ? "times" : "statistics"},
+                                 {"costs", facts.costs},
                                  {"scenes", facts.scenes},         {"tiles", facts.tiles},
                                  {"expected", facts.expected},     {"bound", facts.bound},
                                  {"exact", facts.exact},           {"one_kernel", facts.one_kernel},

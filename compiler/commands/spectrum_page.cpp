@@ -127,13 +127,18 @@ std::string mask_table(const SpectrumFacts& facts) {
   return text;
 }
 
+std::string costs_text(const SpectrumFacts& facts) {
+  if (facts.costs == "times") return "measured times";
+  return facts.costs == "statistics" ? "estimated from instructions and registers" : "measured times, and estimates in their unit";
+}
+
 std::string section(const SpectrumFacts& facts) {
   std::string scenes;
   for (const std::string& scene : facts.scenes) scenes += (scenes.empty() ? "" : ", ") + scene;
   std::string text = fmt::format("<h1>{} of {}</h1>", escaped(facts.name), escaped(facts.pass));
   text += facts.measured ? fmt::format("<p>{:.0f} tiles: {}.", facts.tiles, escaped(scenes)) : std::string("<p>No profile: tiles are assumed, not measured.");
   text += fmt::format(" Costs are {}. Expected: <b>{:.4g}</b> a tile, {}; one kernel for all {:.4g} ({:.2f} times), a kernel for every mask {:.4g}.</p>",
-                      facts.timed ? "measured times" : "estimated from instructions and registers", facts.expected,
+                      costs_text(facts), facts.expected,
                       facts.exact ? "the optimum" : fmt::format("within {:.2f} % of the optimum", 100 * (facts.expected - facts.bound) / facts.expected),
                       facts.one_kernel, facts.one_kernel / facts.expected, facts.kernel_per_mask);
   text += "<h2>What one more kernel is worth</h2>" + curve_plot(facts) + "<h2>Kernels, in the order in which they are tried</h2>" + kernel_table(facts);

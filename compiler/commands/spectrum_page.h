@@ -21,7 +21,8 @@ struct MaskFacts {
 struct SpectrumFacts {
   std::string name, pass;
   std::vector<std::string> features;
-  bool measured = false, timed = false;  // tiles were counted; costs are times
+  bool measured = false;  // tiles were counted
+  std::string costs;      // what they are taken from: "times", "statistics", or both
   std::vector<std::string> scenes;
   double tiles = 0;
   double expected = 0, bound = 0, one_kernel = 0, kernel_per_mask = 0;

@@ -90,28 +90,46 @@ void say(const WatchOptions& options, const std::string& text) {
 
 bool write_results(const WatchOptions& options, const compiler::GeneratedFile& plans, const compiler::CompileResult& result,
                    dsl::Diagnostics& diagnostics) {
-  if (options.folder.empty()) return write_file(plans.path, plans.text, diagnostics);
+  if (options.folder.empty() || !result.complete) return write_file(plans.path, plans.text, diagnostics);
   return write_output(options.folder, result.files, diagnostics, {plans}).has_value();
 }
 
-// Writes the files, or says what is wrong and leaves them as they are.
-Marks compile_once(const WatchOptions& options) {
+struct Build {
+  Marks marks;  // of what was read
+  bool good = false, complete = true;
+  std::vector<compiler::SpectrumChoice> kernels;
+};
+
+// Writes the files, or says what is wrong and leaves them as they are. With the kernels of an earlier build it may stop at a plan file that is soon there.
+Build build_once(const WatchOptions& options, const std::vector<compiler::SpectrumChoice>* earlier) {
   const auto start = Clock::now();
   MarkingReader reader(options.file);
   compiler::CompileOptions compile = options.compile;
   if (compile.command.empty()) compile.command = "rgc build " + std::filesystem::path(options.file).filename().string();
   compile.until = options.folder.empty() ? compiler::Until::plans : compiler::Until::files;
   compile.progress = show_progress;
+  compile.preview = earlier != nullptr;
+  compile.earlier = earlier;
   dsl::Diagnostics diagnostics;
   read_profile(compile, diagnostics);
-  const compiler::CompileResult result = compiler::compile(options.file, reader.reader(), compile, diagnostics);
+  compiler::CompileResult result = compiler::compile(options.file, reader.reader(), compile, diagnostics);
   if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {options.file});
   const std::string path = plan_file_of(options);
   if (!diagnostics.has_errors()) write_results(options, plan_file(path, result), result, diagnostics);
   const bool good = finish(diagnostics, result.sources) == exit_done;
   const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
-  say(options, fmt::format("{}: {}, {} ms\n", path, good ? "up to date" : "left as it is", ms));
-  return reader.take();
+  say(options, fmt::format("{}: {}, {} ms\n", path, !good ? "left as it is" : result.complete ? "up to date" : "a preview", ms));
+  return {reader.take(), good, !good || result.complete, std::move(result.spectra)};
+}
+
+// True unless something changes soon: then there is more urgent work than to complete this build.
+bool rests(const Marks& marks) {
+  constexpr int kPolls = 10;
+  for (int i = 0; i < kPolls; ++i) {
+    if (changed(marks)) return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return !changed(marks);
 }
 
 }  // namespace
@@ -121,7 +139,14 @@ int watch(const WatchOptions& options) {
     fmt::print(stderr, "watch: there is no file `{}`\n", options.file);
     return exit_input_wrong;
   }
-  for (;;) wait_for_change(compile_once(options));
+  std::vector<compiler::SpectrumChoice> kernels;  // of the last build that chose them
+  bool built = false;                             // something runs, so that somebody may wait for the next
+  for (;;) {
+    Build build = build_once(options, built ? &kernels : nullptr);
+    if (!build.complete && rests(build.marks)) build = build_once(options, nullptr);
+    if (build.complete && build.good) kernels = std::move(build.kernels), built = true;
+    wait_for_change(build.marks);
+  }
 }
 
 }  // namespace rg::commands

@@ -6,6 +6,7 @@
 #include "compiler/shaders/shader_jobs.h"
 #include "compiler/shaders/stage_interface.h"
 #include "compiler/shaders/statistics.h"
+#include "dsl/features.h"
 
 namespace rg::compiler {
 namespace {
@@ -100,12 +101,17 @@ bool report_pass(const PassContext& context, const std::vector<ShaderUse>& uses,
   return good;
 }
 
+// The state of the pass says what devices with the feature's capability do.
+bool state_asks(const PassContext& context, const dsl::ShaderFeature& feature) {
+  return context.pass.state.valid() && dsl::asks(context.program.states[context.pass.state], context.program.features[feature.feature].capability);
+}
+
 // A feature that no shader of its pass depends on, in the preprocessor or as a constant.
 void check_features(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results,
                     dsl::Diagnostics& diagnostics) {
   for (size_t i = 0; i < context.pass.features.size(); ++i) {
     const dsl::ShaderFeature& feature = context.pass.features[i];
-    bool used = !feature.feature.valid();
+    bool used = !feature.feature.valid() || state_asks(context, feature);
     for (const ShaderUse& use : uses)
       for (size_t row = 0; row < use.jobs.size(); ++row)
         used = used || use.keys[row][i] || results[use.jobs[row]].numbers.contains(kFirstFeatureConstant + static_cast<uint32_t>(i));
@@ -249,6 +255,9 @@ void put(PassShaders& target, const VariantRow& row, size_t shader) {
   auto& selectors = target.variants[row.configuration];
   if (selectors.size() <= row.selector) selectors.resize(row.selector + 1);
   selectors[row.selector].push_back(shader);
+  auto& values = target.values[row.configuration];
+  values.resize(selectors.size());
+  values[row.selector] = row.values;
 }
 
 void add_variants(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<VariantRow>& rows,
@@ -270,6 +279,7 @@ void add_variants(const PassContext& context, const std::vector<ShaderUse>& uses
   for (const VariantRow& row : rows) {
     auto& selectors = target.variants[row.configuration];
     if (!selectors.empty() && selectors.size() <= row.selector) selectors.resize(row.selector + 1);
+    target.values[row.configuration].resize(selectors.size());
   }
   for (size_t r = rows.size(); r-- > 0;)
     if (rows[r].live && !jobs.empty()) target.shaders = target.variants[rows[r].configuration][rows[r].selector];
@@ -310,12 +320,14 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
   }
 
   const Specialisations all = collect_specialisations(space, work, results, good);
-  const std::vector<Words> words = specialise(all.jobs, results, options);
+  const Specialised modules = specialise(all.jobs, results, options);
+  builder.bundle.complete = modules.complete;
   for (size_t i = 0; i < graph.passes.size(); ++i) {
     PassShaders& target = builder.bundle.passes[i];
     target.variants.resize(space.configurations);
+    target.values.resize(space.configurations);
     target.selecting = space.selecting.empty() ? std::vector<std::vector<size_t>>(space.configurations) : space.selecting[i];
-    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], words, target, builder, diagnostics);
+    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], modules.words, target, builder, diagnostics);
   }
   builder.bundle.read_files = sources.readable_paths();
   return std::move(builder.bundle);

@@ -131,11 +131,11 @@ void finish_all(std::vector<Variant>& variants, const ShaderOptions& options) {
     if (!variants[i].done) variants[i].words = finished[row[i]], variants[i].done = true;
 }
 
-// One of those with equal words for all.
+// One of those with equal words for all. What is not done is not final.
 void validate_all(std::vector<Variant>& variants, const ShaderOptions& options) {
   std::map<Words, std::vector<size_t>> open;
   for (size_t i = 0; i < variants.size(); ++i)
-    if (!variants[i].valid) open[variants[i].words].push_back(i);
+    if (variants[i].done && !variants[i].valid) open[variants[i].words].push_back(i);
   std::vector<const std::vector<size_t>*> rows;
   for (const auto& [words, equal] : open) rows.push_back(&equal);
   for_each_parallel(rows.size(), options.workers, {"valid variant", rows.size(), options.progress},
@@ -168,16 +168,17 @@ Digest digest_of_variants(const dsl::Program& program, dsl::GraphId graph, const
   return hash.finish();
 }
 
-std::vector<Words> specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options) {
+Specialised specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options) {
   std::vector<Variant> variants(jobs.size());
   for_each_parallel(jobs.size(), options.workers, {"shader variant", jobs.size(), options.progress},
                     [&](size_t i) { variants[i] = prune(jobs[i], front_ends[jobs[i].front_end], options.cache); });
-  finish_all(variants, options);
-  if (!options.draft) validate_all(variants, options);
-  std::vector<Words> results;
+  if (options.effort != ShaderEffort::preview) finish_all(variants, options);
+  if (options.effort != ShaderEffort::measure) validate_all(variants, options);
+  Specialised results;
   for (Variant& variant : variants) {
-    if (!variant.kept && options.cache != nullptr) options.cache->store(variant.key, {variant.words, {uint32_t{variant.valid}}});
-    results.push_back(std::move(variant.words));
+    results.complete = results.complete && variant.done;
+    if (variant.done && !variant.kept && options.cache != nullptr) options.cache->store(variant.key, {variant.words, {uint32_t{variant.valid}}});
+    results.words.push_back(std::move(variant.words));
   }
   return results;
 }

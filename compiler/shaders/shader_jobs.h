@@ -28,7 +28,11 @@ struct SpecialiseJob {
   ConstantValues values;  // of exactly FrontEndResult::numbers
   friend auto operator<=>(const SpecialiseJob&, const SpecialiseJob&) = default;
 };
-// Optimised, stripped and, unless it is a draft, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
-std::vector<Words> specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);
+struct Specialised {
+  std::vector<Words> words;  // by job
+  bool complete = true;      // false: some are only pruned, see ShaderEffort::preview
+};
+// Optimised, stripped and, unless they are only measured, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
+Specialised specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);
 
 }  // namespace rg::compiler

@@ -41,6 +41,7 @@ struct CompiledShader {
 struct PassShaders {
   std::vector<size_t> shaders;                             // indices of ShaderBundle::shaders, in stage order, of the first live row
   std::vector<std::vector<std::vector<size_t>>> variants;  // the same by configuration and selector; empty where there is no live row
+  std::vector<std::vector<std::vector<uint32_t>>> values;  // of Pass::features, by configuration and selector, beside `variants`
   std::vector<std::vector<size_t>> selecting;              // by configuration: the features that make the selector, indices into Pass::features
   std::vector<uint32_t> access_stages;                     // Stage bits per Pass::accesses: who really uses it; 0: not a shader access
   std::vector<uint32_t> params_stages;                     // Stage bits per Pass::params
@@ -63,6 +64,7 @@ struct ShaderBundle {
   std::vector<PassShaders> passes;      // indexed by PassId
   std::vector<VariantCount> counts;     // of shaders with features
   std::vector<std::string> read_files;  // for the depfile
+  bool complete = true;                 // false: a preview left work undone
 };
 
 // One variant of one shader: what a machine can build by itself, given the sources.
@@ -72,11 +74,17 @@ struct ShaderTask {
 };
 
 class ShaderCache;
+enum class ShaderEffort : uint8_t {
+  product,
+  measure,  // the shaders are measured and thrown away: nobody validates them
+  preview,  // somebody waits: variants that are not in the cache have their constants set and lack what those leave out, and that is all. Their module is
+            // valid and optimised; ShaderBundle::complete says whether that came to anything
+};
 struct ShaderOptions {
   const ShaderCache* cache = nullptr;  // see cache.h; null: none
   unsigned workers = 0;                // 0: one a core
   std::function<void(std::string_view)> progress;
-  bool draft = false;  // the shaders are measured and thrown away: nobody validates them
+  ShaderEffort effort = ShaderEffort::product;
 };
 
 // The variants of `graph`, each once, in an order that only the sources decide.

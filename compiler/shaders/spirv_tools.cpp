@@ -135,7 +135,7 @@ Words finish_spirv(const Words& words) {
 
 std::string tool_versions() {
   const glslang::Version front_end = glslang::GetVersion();
-  return "pipeline 1, glslang " + std::to_string(front_end.major) + "." + std::to_string(front_end.minor) + "." + std::to_string(front_end.patch) +
+  return "pipeline " RGC_METHOD ", glslang " + std::to_string(front_end.major) + "." + std::to_string(front_end.minor) + "." + std::to_string(front_end.patch) +
          front_end.flavor + ", " + spvSoftwareVersionDetailsString();
 }
 

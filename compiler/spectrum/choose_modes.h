@@ -20,6 +20,7 @@ namespace rg::compiler {
 struct MaskWeight {
   Mask mask = 0;
   double weight = 0;
+  friend bool operator==(const MaskWeight&, const MaskWeight&) = default;
 };
 struct SpectrumProblem {
   uint32_t features = 0;              // at most 32

@@ -106,6 +106,40 @@ Additive fit_terms(uint32_t features, const std::vector<std::pair<Mask, double>>
   return terms;
 }
 
+bool tell_apart(uint32_t features, const std::vector<std::pair<Mask, double>>& samples) {
+  // Rows reduced modulo a prime: of zeros and ones, so that independent rows stay independent but for primes that divide a minor.
+  constexpr uint64_t kPrime = 2147483647;
+  const size_t n = features + 1;
+  std::vector<std::vector<uint64_t>> pivots(n);  // by leading column
+  size_t rank = 0;
+  for (const auto& [set, value] : samples) {
+    std::vector<uint64_t> row(n, 1);
+    for (size_t i = 0; i < features; ++i) row[i] = set >> i & 1;
+    for (size_t column = 0; column < n; ++column) {
+      if (row[column] == 0) continue;
+      if (pivots[column].empty()) {
+        pivots[column] = std::move(row);
+        ++rank;
+        break;
+      }
+      const uint64_t a = pivots[column][column], b = row[column];
+      for (size_t i = column; i < n; ++i) row[i] = (row[i] * a + (kPrime - pivots[column][i]) * b) % kPrime;
+    }
+  }
+  return rank == n;
+}
+
+std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates, const std::vector<std::pair<Mask, double>>& times) {
+  const std::map<Mask, double> timed(times.begin(), times.end());
+  double products = 0, squares = 0;  // the factor that leaves the least squares
+  for (const auto& [set, estimate] : estimates)
+    if (const auto time = timed.find(set); time != timed.end()) products += estimate * time->second, squares += estimate * estimate;
+  std::map<Mask, double> all;
+  for (const auto& [set, estimate] : estimates) all.emplace(set, squares > 0 ? estimate * products / squares : estimate);
+  for (const auto& [set, time] : timed) all[set] = time;
+  return {all.begin(), all.end()};
+}
+
 Additive fit_least_squares(uint32_t features, const std::vector<std::pair<Mask, double>>& samples) {
   const size_t n = features + 1;  // the last unknown is the base
   std::vector<std::vector<double>> a(n, std::vector<double>(n, 0.0));

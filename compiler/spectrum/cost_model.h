@@ -47,6 +47,10 @@ class CostTable {
 
 // Terms that reproduce the samples of the empty set, single features and pairs; other samples are ignored. A missing sample leaves its term 0.
 Additive fit_terms(uint32_t features, const std::vector<std::pair<Mask, double>>& samples);
+// Whether samples of these sets determine the base and the term of every feature. O(sets x features^2).
+bool tell_apart(uint32_t features, const std::vector<std::pair<Mask, double>>& samples);
+// Estimates, brought to the unit of the measured times by the one factor that fits those both know best; and the times themselves.
+std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates, const std::vector<std::pair<Mask, double>>& times);
 // base and features by least squares with a little damping towards equal shares, for samples of any sets.
 Additive fit_least_squares(uint32_t features, const std::vector<std::pair<Mask, double>>& samples);
 

@@ -6,9 +6,6 @@
 namespace rg::compiler {
 namespace {
 
-// Raise it whenever the search, the statistics or the cost of a kernel change: what an older rgc chose is then not found.
-constexpr std::string_view kVersion = "spectrum choice 1";
-
 class Writer {
  public:
   void put(uint32_t number) { words.push_back(number); }
@@ -81,7 +78,7 @@ Digest choice_key(const SpectrumProblem& problem, const Digest& sources) {
   Writer out;
   out.put(problem.features), out.put(problem.needs), out.put(problem.histogram), out.put(problem.costs), out.put(problem.modes);
   Sha256 hash;
-  hash.add_part(kVersion).add_part(hex(sources));
+  hash.add_part("spectrum choice " RGC_METHOD).add_part(hex(sources));
   return hash.add_part({reinterpret_cast<const char*>(out.words.data()), out.words.size() * sizeof(uint32_t)}).finish();
 }
 

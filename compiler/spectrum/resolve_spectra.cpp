@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <map>
 #include <set>
 
 #include "compiler/shaders/cache.h"
@@ -117,7 +118,7 @@ double cost_of(const Words& words) {
 double cached_cost(const Words& words, const ShaderCache* cache) {
   if (cache == nullptr) return cost_of(words);
   Sha256 hash;
-  hash.add_part("kernel cost 1").add_part({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t)});
+  hash.add_part("kernel cost " RGC_METHOD).add_part({reinterpret_cast<const char*>(words.data()), words.size() * sizeof(uint32_t)});
   const Digest key = hash.finish();
   if (const auto found = cache->find(key); found && found->size() == 1 && (*found)[0].size() == 2)
     return std::bit_cast<double>(uint64_t{(*found)[0][0]} | uint64_t{(*found)[0][1]} << 32);
@@ -166,7 +167,8 @@ std::vector<double> measure_kernels(const dsl::Program& program, const User& use
                                     dsl::SourceFiles files, const SpectrumOptions& options) {
   const KernelProgram kernels = with_kernels(program, user, sets);
   dsl::Diagnostics ignored;
-  const ShaderBundle bundle = compile_shaders(kernels.program, user.graph, kernels.space, read, files, {options.cache, options.workers, options.progress, true}, ignored);
+  const ShaderOptions measure{options.cache, options.workers, options.progress, ShaderEffort::measure};
+  const ShaderBundle bundle = compile_shaders(kernels.program, user.graph, kernels.space, read, files, measure, ignored);
   std::vector<double> costs;
   for (const size_t pass : kernels.passes) {
     if (pass == SIZE_MAX || bundle.passes[pass].shaders.empty()) return {};
@@ -188,6 +190,18 @@ SpectrumProblem make_problem(const dsl::Spectrum& spectrum, const std::optional<
   return problem;
 }
 
+using Times = std::vector<std::pair<Mask, double>>;
+
+// Kernels have what their features require: the time of a set without is that of the set with it. Where there are several, their mean.
+Times closed_times(const SpectrumProblem& problem, const std::optional<SpectrumProfile>& profile) {
+  std::map<Mask, std::pair<double, int>> sums;
+  if (profile)
+    for (const auto& [set, ms] : profile->costs) sums[close(problem, set)].first += ms, ++sums[close(problem, set)].second;
+  Times times;
+  for (const auto& [set, sum] : sums) times.emplace_back(set, sum.first / sum.second);
+  return times;
+}
+
 CostModel fitted(uint32_t features, std::vector<std::pair<Mask, double>> samples) {
   std::sort(samples.begin(), samples.end());
   CostModel model;
@@ -196,19 +210,20 @@ CostModel fitted(uint32_t features, std::vector<std::pair<Mask, double>> samples
   return model;
 }
 
-// Costs from the statistics of real kernels: a sample first, then whatever was chosen, until nothing is chosen unseen.
-ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, SpectrumProblem& problem, const ReadFile& read,
-                                const dsl::SourceFiles& files, const SpectrumOptions& options) {
+// Costs from the statistics of real kernels: a sample first, then whatever was chosen, until nothing is chosen unseen. `times` are known better.
+ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, SpectrumProblem& problem, const Times& times,
+                                const ReadFile& read, const dsl::SourceFiles& files, const SpectrumOptions& options) {
   constexpr int kRounds = 6;
   problem.costs.work.features.assign(problem.features, 0.1);
   std::set<Mask> wanted = sampled_sets(problem), known;
+  for (const auto& [set, time] : times) wanted.insert(set);  // they say what a unit of the statistics takes
   std::vector<std::pair<Mask, double>> samples;
   ModeChoice choice;
   for (int round = 0; round < kRounds && !wanted.empty(); ++round) {
     const std::vector<Mask> sets(wanted.begin(), wanted.end());
     const std::vector<double> costs = measure_kernels(program, user, sets, read, files, options);
     for (size_t i = 0; i < costs.size(); ++i) samples.emplace_back(sets[i], costs[i]);
-    if (!costs.empty()) problem.costs = fitted(problem.features, samples);
+    if (!costs.empty()) problem.costs = fitted(problem.features, times.empty() ? samples : complete_times(samples, times));
     choice = choose_modes(problem);
     known.insert(wanted.begin(), wanted.end());
     wanted.clear();
@@ -224,19 +239,34 @@ Digest digest_of_kernels(const dsl::Program& program, const User& user, const Sp
   return digest_of_variants(kernels.program, user.graph, kernels.space, read);
 }
 
-// By measured times where there are some, else by statistics; from the cache where nothing changed.
-ModeChoice choose(const dsl::Program& program, const User& user, bool timed, SpectrumProblem& problem, const ReadFile& read, const dsl::SourceFiles& files,
-                  const SpectrumOptions& options) {
-  if (timed) return choose_modes(problem);
-  if (options.cache == nullptr) return choose_by_statistics(program, user, problem, read, files, options);
-  const Digest key = choice_key(problem, digest_of_kernels(program, user, problem, read));
-  if (auto kept = find_choice(*options.cache, key, problem)) {
-    problem.costs = std::move(kept->costs);
-    return std::move(kept->choice);
+// What an earlier build chose for this problem, whatever its shader was.
+const SpectrumChoice* earlier_choice(const User& user, const SpectrumProblem& problem, const SpectrumOptions& options) {
+  if (options.earlier == nullptr) return nullptr;
+  const auto same = [&](const SpectrumChoice& other) {
+    const SpectrumProblem& before = other.problem;
+    return other.pass == user.pass->name && before.features == problem.features && before.needs == problem.needs && before.modes == problem.modes &&
+           before.histogram == problem.histogram;
+  };
+  const auto found = std::find_if(options.earlier->begin(), options.earlier->end(), same);
+  return found == options.earlier->end() ? nullptr : &*found;
+}
+
+// By statistics of kernels that are built for it; from the cache where nothing changed, and from an earlier build where it may be.
+void choose_with_statistics(const dsl::Program& program, const User& user, const Times& times, SpectrumChoice& row, const ReadFile& read,
+                            const dsl::SourceFiles& files, const SpectrumOptions& options) {
+  const ShaderCache* cache = options.cache;
+  row.problem.costs.measured = times;
+  const Digest key = cache != nullptr ? choice_key(row.problem, digest_of_kernels(program, user, row.problem, read)) : Digest{};
+  if (auto kept = cache != nullptr ? find_choice(*cache, key, row.problem) : std::nullopt) {
+    row.problem.costs = std::move(kept->costs), row.choice = std::move(kept->choice);
+    return;
   }
-  ModeChoice choice = choose_by_statistics(program, user, problem, read, files, options);
-  if (!problem.costs.measured.empty()) store_choice(*options.cache, key, {problem.costs, choice});
-  return choice;
+  if (const SpectrumChoice* earlier = earlier_choice(user, row.problem, options)) {
+    row.problem.costs = earlier->problem.costs, row.choice = earlier->choice, row.provisional = true;
+    return;
+  }
+  row.choice = choose_by_statistics(program, user, row.problem, times, read, files, options);
+  if (cache != nullptr && !row.problem.costs.measured.empty()) store_choice(*cache, key, {row.problem.costs, row.choice});
 }
 
 }  // namespace
@@ -252,11 +282,16 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
     const dsl::Spectrum& spectrum = program.spectra.rows[s];
     auto profile = find_profile(spectrum, read, read_override, options, diagnostics);
     if (!good || diagnostics.has_errors()) continue;
-    SpectrumProblem problem = make_problem(spectrum, profile, options);
-    const bool timed = profile && !profile->costs.empty();
-    if (timed) problem.costs = fitted(problem.features, profile->costs);
-    ModeChoice choice = choose(program, users[0], timed, problem, read, files, options);
-    choices.push_back({dsl::SpectrumId{s}, users[0].pass->name, std::move(profile), std::move(problem), std::move(choice)});
+    SpectrumChoice& row = choices.emplace_back(SpectrumChoice{dsl::SpectrumId{s}, users[0].pass->name, profile, make_problem(spectrum, profile, options)});
+    const Times times = closed_times(row.problem, profile);
+    if (tell_apart(row.problem.features, times)) {
+      row.problem.costs = fitted(row.problem.features, times);
+      row.choice = choose_modes(row.problem);
+      row.source = CostSource::times;
+    } else {
+      row.source = times.empty() ? CostSource::statistics : CostSource::both;
+      choose_with_statistics(program, users[0], times, row, read, files, options);
+    }
   }
   return choices;
 }

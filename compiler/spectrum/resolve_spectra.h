@@ -13,12 +13,17 @@
 
 namespace rg::compiler {
 
+// What the costs of kernels are taken from. Times that do not tell features apart are completed by statistics, brought to their unit.
+enum class CostSource : uint8_t { statistics, times, both };
+
 struct SpectrumChoice {
   dsl::SpectrumId spectrum;
   std::string pass;                        // the first that uses it; its shader was measured
   std::optional<SpectrumProfile> profile;  // none: nothing was measured, and the problem stands on an assumption
   SpectrumProblem problem;
-  ModeChoice choice;
+  ModeChoice choice = {};
+  CostSource source = CostSource::statistics;
+  bool provisional = false;  // taken from SpectrumOptions::earlier, and to be chosen anew
 };
 struct SpectrumOptions {
   std::string profile;            // path that replaces those of all spectra; empty: their own
@@ -27,6 +32,9 @@ struct SpectrumOptions {
   const ShaderCache* cache = nullptr;
   unsigned workers = 0;
   std::function<void(std::string_view)> progress;
+  // Of an earlier build: where the shader alone has changed since, its kernels are taken again, instead of building dozens to choose among. They still
+  // serve every mask; what they cost is no longer known. Null: nothing is taken.
+  const std::vector<SpectrumChoice>* earlier = nullptr;
 };
 
 // One row a spectrum that some pass uses, in order of declaration. Costs are the profile's, else from the statistics of the shader's kernels: for no

@@ -110,12 +110,21 @@ Status measure_passes(Device& device, const Scene& scene, const DemoOptions& opt
   return Done{};
 }
 
-// The last frame's tiles count for the camera's scene.
-Status record_tiles(Renderer& renderer, const DemoOptions& options, const Shot& shot, std::vector<SpectrumScene>& scenes) {
-  const auto features = renderer.graph().tile_features();
-  if (!features) return features.error();
+double weight_of(const DemoOptions& options, const Shot& shot) {
   const auto weight = options.weights.find(shot.camera->name);
-  count_tiles(scenes.emplace_back(SpectrumScene{shot.camera->name, weight == options.weights.end() ? 1 : weight->second, {}}), *features);
+  return weight == options.weights.end() ? 1 : weight->second;
+}
+
+// With an instance of its own, whose kernels are timed one by one where the driver cannot.
+Status time_kernels(Device& device, const Scene& scene, const DemoOptions& options, const std::vector<Shot>& shots, SpectrumProfile& profile) {
+  auto renderer = Renderer::create(device, scene, {.width = options.width, .height = options.height, .submit_per_pass = true});
+  if (!renderer) return renderer.error();
+  for (const Shot& shot : shots) {
+    if (shot.view != frame::DEBUG_FINAL) continue;
+    constexpr int kRounds = 3;
+    const Status timed = time_kernels(*renderer, scene, *shot.camera, settings_for(options, shot, 0), kRounds, weight_of(options, shot), profile);
+    if (!timed) return timed;
+  }
   return Done{};
 }
 
@@ -168,14 +177,16 @@ Status render_all(Device& device, const Scene& scene, const DemoOptions& options
   if (!options.watch.empty()) return watch_first_shot(device, scene, options, shots->front());
   auto renderer = Renderer::create(device, scene, renderer_options(options));
   if (!renderer) return renderer.error();
-  std::vector<SpectrumScene> tiles;
+  SpectrumProfile spectrum(kernels_of<frame::spectrum::light_features>());
   for (const Shot& shot : *shots) {
     if (Status taken = take(*renderer, scene, options, shot); !taken) return taken;
     if (options.record_spectrum.empty() || shot.view != frame::DEBUG_FINAL) continue;
-    if (Status recorded = record_tiles(*renderer, options, shot, tiles); !recorded) return recorded;
+    if (Status recorded = record_tiles(*renderer, shot.camera->name, weight_of(options, shot), spectrum); !recorded) return recorded;
   }
+  if (options.time_kernels)
+    if (Status timed = time_kernels(device, scene, options, *shots, spectrum); !timed) return timed;
   if (!options.record_spectrum.empty())
-    if (Status written = write_spectrum(options.record_spectrum, tiles); !written) return written;
+    if (Status written = write_spectrum(options.record_spectrum, spectrum); !written) return written;
   Measurements measured;
   if (Status done = measure_frame(*renderer, scene, options, shots->front(), measured); !done) return done;
   if (Status done = look_inside(device, scene, options, shots->front()); !done) return done;

@@ -36,8 +36,9 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--view", options.views, "what to show, may be repeated; all if left out")->check(CLI::IsMember(views));
   app.add_option("--device", options.device, "number from --list-devices; -1 takes the best")->capture_default_str();
   app.add_option("--out", options.out, "folder for the pictures")->capture_default_str();
-  app.add_option("--record-spectrum", options.record_spectrum,
-                 "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
+  auto* record = app.add_option("--record-spectrum", options.record_spectrum,
+                                "write the feature masks of all tiles, camera by camera, for `rgc spectrum --profile`");
+  app.add_flag("--time-kernels", options.time_kernels, "write there what each kernel takes for the tiles that it can serve, too")->needs(record);
   app.add_option("--weight", weights, "how much a camera counts in that file; 1 if left out; may be repeated")
       ->type_name("CAMERA=NUMBER")
       ->check(CLI::Validator([](std::string& text) { return weight_of(text) ? "" : "`" + text + "` is not of the form CAMERA=NUMBER"; }, ""));

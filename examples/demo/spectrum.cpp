@@ -1,30 +1,22 @@
 #include "examples/demo/spectrum.h"
 
 #include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "frame.h"
 
 namespace rg::demo {
 namespace {
 
 using Features = frame::spectrum::light_features;
 
-nlohmann::ordered_json names_of(uint32_t mask) {
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
-  for (size_t i = 0; i < std::size(Features::features); ++i)
-    if ((mask >> i & 1) != 0) names.push_back(Features::features[i]);
-  return names;
-}
-
-nlohmann::ordered_json to_json(const SpectrumScene& scene) {
-  nlohmann::ordered_json out{{"name", scene.name}, {"weight", scene.weight}, {"masks", nlohmann::ordered_json::array()}};
-  for (const auto& [mask, tiles] : scene.tiles) out["masks"].push_back({{"features", names_of(mask)}, {"tiles", tiles}});
-  return out;
-}
-
-Error io_error(const std::filesystem::path& path) {
-  return {ErrorCode::io, "`" + path.string() + "` cannot be written; choose another path with --record-spectrum"};
+Status time_kernel(Renderer& renderer, const Scene& scene, const NamedCamera& camera, const FrameSettings& settings, size_t kernel, int rounds,
+                   double weight, SpectrumProfile& profile) {
+  for (int round = 0; round <= rounds; ++round) {  // the first is for the driver, which compiles when something is used first
+    if (Status drawn = renderer.render(make_frame(scene, camera, settings)); !drawn) return drawn;
+    if (Status idle = renderer.graph().wait_idle(); !idle) return idle;
+    const auto masks = renderer.graph().tile_features();
+    if (!masks) return masks.error();
+    if (round > 0) profile.add_time(kernel, weight, renderer.graph().instance(), "deferred_light", *masks);
+  }
+  return Done{};
 }
 
 }  // namespace
@@ -35,21 +27,30 @@ std::optional<uint32_t> feature_bit(std::string_view name) {
   return std::nullopt;
 }
 
-void count_tiles(SpectrumScene& scene, std::span<const uint32_t> tile_features) {
-  for (const uint32_t mask : tile_features) ++scene.tiles[mask];
+Status record_tiles(Renderer& renderer, std::string_view camera, double weight, SpectrumProfile& profile) {
+  const auto masks = renderer.graph().tile_features();
+  if (!masks) return masks.error();
+  profile.add_scene(camera, weight, *masks);
+  return Done{};
 }
 
-Status write_spectrum(const std::filesystem::path& path, const std::vector<SpectrumScene>& scenes) {
-  nlohmann::ordered_json out{
-      {"schema", "rgc-spectrum-1"}, {"spectrum", "light_features"}, {"features", names_of(~0u)}, {"scenes", nlohmann::ordered_json::array()}};
-  for (const SpectrumScene& scene : scenes) out["scenes"].push_back(to_json(scene));
+Status time_kernels(Renderer& renderer, const Scene& scene, const NamedCamera& camera, FrameSettings settings, int rounds, double weight,
+                    SpectrumProfile& profile) {
+  for (size_t kernel = 0; kernel < std::size(Features::kernels); ++kernel) {
+    settings.forced_features = Features::kernels[kernel];
+    if (Status timed = time_kernel(renderer, scene, camera, settings, kernel, rounds, weight, profile); !timed) return timed;
+  }
+  return Done{};
+}
+
+Status write_spectrum(const std::filesystem::path& path, const SpectrumProfile& profile) {
   const std::filesystem::path temporary = path.string() + ".tmp";
   std::ofstream file(temporary);
-  file << out.dump(1) << "\n";
+  file << profile.json();
   file.close();
   std::error_code failure;
   if (file) std::filesystem::rename(temporary, path, failure);
-  if (!file || failure) return io_error(path);
+  if (!file || failure) return Error{ErrorCode::io, "`" + path.string() + "` cannot be written; choose another path with --record-spectrum"};
   return Done{};
 }
 

@@ -1,30 +1,26 @@
-// Which sets of lamp features the tiles of a scene ask for, as `rgc spectrum --profile` reads it: schema rgc-spectrum-1.
+// What the tiles of a scene ask of the lighting and what its kernels take, as `rgc spectrum --profile` reads it.
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
-#include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
-#include "runtime/result.h"
+#include "examples/demo/renderer.h"
+#include "runtime/spectrum_profile.h"
 
 namespace rg::demo {
-
-struct SpectrumScene {
-  std::string name;
-  double weight = 1;
-  std::map<uint32_t, uint64_t> tiles;  // by mask of LAMP_* bits
-};
 
 // The bit of a feature of spectrum light_features by its name.
 std::optional<uint32_t> feature_bit(std::string_view name);
 
-void count_tiles(SpectrumScene& scene, std::span<const uint32_t> tile_features);
+// The tiles of the last frame count for the camera's scene.
+Status record_tiles(Renderer& renderer, std::string_view camera, double weight, SpectrumProfile& profile);
+
+// Times every kernel from this camera on all tiles that it can serve, `rounds` times. `renderer` submits per pass.
+Status time_kernels(Renderer& renderer, const Scene& scene, const NamedCamera& camera, FrameSettings settings, int rounds, double weight,
+                    SpectrumProfile& profile);
 
 // Written to a temporary name first, then renamed.
-Status write_spectrum(const std::filesystem::path& path, const std::vector<SpectrumScene>& scenes);
+Status write_spectrum(const std::filesystem::path& path, const SpectrumProfile& profile);
 
 }  // namespace rg::demo

@@ -21,8 +21,10 @@ class Hazards : public test::DeviceTest {
     ASSERT_TRUE(graph) << graph.error().message;
     const uint32_t step = 1;
     const std::span<const std::byte> params[] = {std::as_bytes(std::span(&step, 1))};
+    const std::vector<uint32_t> given(64, 5);
+    const std::span<const std::byte> updates[] = {std::as_bytes(std::span(given))};
     FrameInputs inputs;
-    inputs.params = params, inputs.callbacks = kIgnore;
+    inputs.params = params, inputs.callbacks = kIgnore, inputs.updates = updates;
     for (int frame = 0; frame < 4; ++frame) RG_ASSERT_OK(graph->execute(inputs));
     RG_ASSERT_OK(graph->wait_idle());
     ran = true;
@@ -117,6 +119,30 @@ TEST_F(Hazards, MemoryTakenOverFromAnUnfinishedUser) {
   t.plan.image_barriers[2].src_stages = stage::none;  // b discards without waiting
   run(t.plan);
   expect("Hazard WRITE_AFTER_READ");
+}
+
+// The relay with a picture that the queues share, instead of handing it over.
+test::Relay shared_relay() {
+  test::Relay t = test::relay();
+  t.plan.resources[t.picture].concurrent = true;
+  t.plan.groups[1].image_count = 0;  // the release
+  ImageBarrier& barrier = t.plan.image_barriers[t.plan.groups[2].first_image];
+  barrier.src_queue = barrier.dst_queue = kNone;
+  return t;
+}
+
+TEST_F(Hazards, NothingIsReportedWhereAQueueWaitsForAnother) {
+  test::Relay t = shared_relay();
+  run(t.plan);
+  EXPECT_EQ(messages.size(), 0u) << all_messages();
+}
+
+// While the layer watches, barriers behind waits name the writes that are waited for. Where nothing waits, they must not.
+TEST_F(Hazards, TransitionOfAnImageThatAnotherQueueStillWrites) {
+  test::Relay t = shared_relay();
+  t.plan.batches[2].wait_count = 0;
+  run(t.plan);
+  expect("Hazard");
 }
 
 }  // namespace

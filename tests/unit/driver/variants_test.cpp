@@ -389,5 +389,25 @@ TEST(SpectrumOfAFrame, MasksMatchTheGrid) {
   EXPECT_EQ(compiled.codes(), "RG0716 `masks` holds 16 masks and pass `shade` runs 64 groups; it takes one mask a group\n");
 }
 
+// Made in a hurry, variants are only pruned: nothing of them gets into the cache, and where the cache has them nothing is left to do.
+TEST(VariantsOfAFrame, APreviewLeavesWorkUndoneAndNothingBehind) {
+  const Folder folder;
+  const Files files = frame_with("features sun, path, fog", kBody);
+  CompileOptions options, hurried;
+  options.cache_folder = hurried.cache_folder = folder.path.string();
+  hurried.preview = true;
+  const std::string whole = all_text(compile_files(files).result);
+  const Compiled preview = compile_files(files, hurried);
+  ASSERT_FALSE(preview.diagnostics.has_errors()) << preview.codes();
+  EXPECT_FALSE(preview.result.complete);
+  EXPECT_EQ(preview.result.graphs[0].plans[0].plan.pipeline_choices.size(), 8u);
+  const Compiled complete = compile_files(files, options);
+  EXPECT_TRUE(complete.result.complete);
+  EXPECT_EQ(all_text(complete.result), whole);
+  const Compiled again = compile_files(files, hurried);
+  EXPECT_TRUE(again.result.complete);
+  EXPECT_EQ(all_text(again.result), whole);
+}
+
 }  // namespace
 }  // namespace rg::compiler

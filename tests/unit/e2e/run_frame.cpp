@@ -18,12 +18,13 @@ void expect_proved(const compiler::CompileResult& result) {
         ADD_FAILURE() << finding.text;
 }
 
-std::optional<Words> run(const Files& files, uint32_t frames, bool validate) {
+std::optional<Words> run(const Files& files, uint32_t frames, bool validate, std::vector<Capability> without) {
   const compiler::CompileResult result = compile_files(files);
   if (result.graphs.empty() || result.graphs[0].plans.empty()) return Words{};
   expect_proved(result);
   DeviceOptions options;
   options.validate = validate;
+  options.without = std::move(without);
   options.on_message = [](bool is_error, std::string_view message) {
     if (is_error) ADD_FAILURE() << message;
   };
@@ -50,6 +51,11 @@ std::optional<Words> run(const Files& files, uint32_t frames, bool validate) {
     return words;
   }
   return Words{};
+}
+
+bool device_has(Capability capability) {
+  const auto device = Device::create({});
+  return device && device->has(capability);
 }
 
 }  // namespace rg::test

@@ -70,11 +70,14 @@ graph frame() {
   { "features": ["red"], "tiles": 300 }, { "features": ["green", "blue"], "tiles": 90 }, { "features": [], "tiles": 40 },
   { "features": ["red", "deep_red"], "tiles": 70 } ] } ] })"}};
 
+compiler::CompileResult compile_tiles(const Files& files, compiler::CompileOptions options, dsl::Diagnostics& diagnostics) {
+  options.until = compiler::Until::plans;
+  return compiler::compile("tiles.rg", reader_of(files), options, diagnostics);
+}
 compiler::CompileResult compile_tiles(std::optional<uint32_t> modes, dsl::Diagnostics& diagnostics) {
   compiler::CompileOptions options;
-  options.until = compiler::Until::plans;
   options.spectrum_modes = modes;
-  return compiler::compile("tiles.rg", reader_of(kFiles), options, diagnostics);
+  return compile_tiles(kFiles, options, diagnostics);
 }
 
 uint32_t mask_of(uint32_t i) {
@@ -143,6 +146,68 @@ TEST(Spectrum, EveryTileIsShadedOnceByAKernelThatServesIt) {
       EXPECT_EQ(shown, expected()) << modes;
     }
   }
+}
+
+// Somebody edits the shader and waits: the kernels are those of the build before, whatever they cost now, and shade the same.
+TEST(Spectrum, APreviewTakesTheKernelsOfTheBuildBefore) {
+  dsl::Diagnostics diagnostics;
+  compiler::CompileOptions options;
+  options.spectrum_modes = 3;
+  const compiler::CompileResult before = compile_tiles(kFiles, options, diagnostics);
+  EXPECT_TRUE(before.complete);
+  Files edited = kFiles;
+  std::string& shader = edited["shade.comp"];
+  const std::string cheap = "if (blue &&", dear = "if (red) for (uint i = 0u; i < own[0]; ++i) value ^= own[i] & 0u * i;\n  if (blue &&";
+  shader.replace(shader.find(cheap), cheap.size(), dear);
+  options.preview = true;
+  options.earlier = &before.spectra;
+  const compiler::CompileResult preview = compile_tiles(edited, options, diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, preview.sources, false);
+  EXPECT_FALSE(preview.complete);
+  EXPECT_TRUE(preview.spectra[0].provisional);
+  EXPECT_EQ(preview.spectra[0].choice.modes, before.spectra[0].choice.modes);
+  prove(preview);
+  if (const std::vector<uint32_t> shown = run(preview); !shown.empty()) {
+    EXPECT_EQ(shown, expected());
+  }
+  options.spectrum_modes = 2;  // another problem: nothing to take
+  EXPECT_FALSE(compile_tiles(edited, options, diagnostics).spectra[0].provisional);
+}
+
+compiler::CompileResult compile_timed(const std::string& costs, dsl::Diagnostics& diagnostics) {
+  Files files = kFiles;
+  std::string& profile = files["tiles.json"];
+  profile.insert(profile.rfind('}'), ", \"costs\": [" + costs + "]");
+  return compile_tiles(files, {}, diagnostics);
+}
+
+// Two kernels that were timed: they cost their times, and what the statistics say of others is brought to the unit of the times.
+TEST(Spectrum, TimesThatDoNotTellFeaturesApartAreCompletedByStatistics) {
+  dsl::Diagnostics diagnostics;
+  const compiler::CompileResult estimated = compile_tiles(4, diagnostics);
+  const compiler::CompileResult timed =
+      compile_timed("{ \"features\": [], \"ms\": 0.25 }, { \"features\": [\"red\", \"deep_red\", \"green\", \"blue\"], \"ms\": 2.5 }", diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, timed.sources, false);
+  EXPECT_EQ(estimated.spectra[0].source, compiler::CostSource::statistics);
+  EXPECT_EQ(timed.spectra[0].source, compiler::CostSource::both);
+  const auto cost_of = [](const compiler::CompileResult& result, compiler::Mask set) { return compiler::cost(result.spectra[0].problem.costs, set); };
+  EXPECT_EQ(cost_of(timed, 0), 0.25);
+  EXPECT_EQ(cost_of(timed, 15), 2.5);
+  const double none = cost_of(estimated, 0), all = cost_of(estimated, 15), factor = (none * 0.25 + all * 2.5) / (none * none + all * all);
+  EXPECT_NEAR(cost_of(timed, 4), cost_of(estimated, 4) * factor, 1e-9) << "green, which was built for its statistics";
+}
+
+TEST(Spectrum, TimesThatTellFeaturesApartStandAlone) {
+  dsl::Diagnostics diagnostics;
+  const compiler::CompileResult timed = compile_timed(
+      "{ \"features\": [], \"ms\": 1 }, { \"features\": [\"red\"], \"ms\": 2 }, { \"features\": [\"deep_red\"], \"ms\": 4 },"
+      "{ \"features\": [\"green\"], \"ms\": 5 }, { \"features\": [\"blue\"], \"ms\": 9 }",
+      diagnostics);
+  ASSERT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, timed.sources, false);
+  EXPECT_EQ(timed.spectra[0].source, compiler::CostSource::times);
+  const compiler::CostModel& costs = timed.spectra[0].problem.costs;
+  EXPECT_EQ(compiler::cost(costs, 3), 4) << "a kernel with deep_red has red";
+  EXPECT_NEAR(compiler::cost(costs, 4 | 8), 1 + 4 + 8, 0.05) << "terms add up";
 }
 
 TEST(Spectrum, NothingWaitsBetweenKernels) {

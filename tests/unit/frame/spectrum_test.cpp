@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "examples/demo/spectrum.h"
 #include "tests/unit/frame/lab.h"
 
 namespace rg::test {
@@ -115,6 +116,20 @@ TEST(LightSpectrum, ThePictureIsThatOfTheFullKernelOnEveryTile) {
     EXPECT_TRUE(chosen.bytes == full[0].bytes) << plaza().cameras[camera].name;
     EXPECT_EQ(values_of<uint32_t>(full[1])[3 * (kKernels - 1)], kTiles) << "all tiles were forced";
   }
+}
+
+// As `./x demo --record-spectrum FILE --time-kernels` does it. How long they take is the machine's business.
+TEST(LightSpectrum, EveryKernelIsTimedOnTheTilesThatItCanServe) {
+  auto renderer = demo::Renderer::create(device(), plaza(), {.width = kWidth, .height = kHeight, .submit_per_pass = true});
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  SpectrumProfile profile(kernels_of<Features>());
+  const FrameSettings settings{.width = kWidth, .height = kHeight, .jitter = false, .noise = false, .animate = false};
+  const Status timed = demo::time_kernels(*renderer, plaza(), plaza().cameras[0], settings, 1, 1, profile);
+  ASSERT_TRUE(timed) << timed.error().message;
+  const auto costs = profile.costs();
+  ASSERT_GE(costs.size(), 4u);
+  EXPECT_EQ(costs.back().first, kAll) << "it can serve every tile";
+  for (const auto& [set, ms] : costs) EXPECT_GT(ms, 0) << set;
 }
 
 }  // namespace

@@ -47,6 +47,7 @@ struct TestPlan {
   std::vector<ShaderModule> shaders;
   std::vector<Pipeline> pipelines;
   std::vector<Index> pipeline_shaders;
+  std::vector<SampleLocation> sample_locations;
   std::vector<Binding> bindings;
   std::vector<Sampler> samplers;
   std::vector<Params> params;

@@ -166,6 +166,24 @@ TEST(CostModel, FitsWhatItIsGiven) {
   EXPECT_NEAR(fitted.base, 1.0, 0.01);
 }
 
+TEST(CostModel, FeaturesAreToldApartByAsManyIndependentSets) {
+  EXPECT_FALSE(tell_apart(2, {}));
+  EXPECT_FALSE(tell_apart(2, {{0, 1}, {1, 1}}));
+  EXPECT_FALSE(tell_apart(2, {{0, 1}, {3, 1}, {3, 2}})) << "always together";
+  EXPECT_TRUE(tell_apart(2, {{0, 1}, {1, 1}, {3, 1}}));
+  EXPECT_TRUE(tell_apart(2, {{1, 1}, {2, 1}, {3, 1}}));
+  EXPECT_FALSE(tell_apart(3, {{1, 1}, {2, 1}, {4, 1}}));
+  EXPECT_TRUE(tell_apart(3, {{1, 1}, {2, 1}, {4, 1}, {7, 1}}));
+}
+
+TEST(CostModel, EstimatesTakeTheUnitOfTheTimes) {
+  using Row = std::pair<Mask, double>;
+  const std::vector<Row> rows = complete_times({{0, 100}, {1, 200}, {2, 400}}, {{0, 1}, {2, 4}, {3, 9}});
+  EXPECT_EQ(rows, (std::vector<Row>{{0, 1}, {1, 2}, {2, 4}, {3, 9}}));
+  const std::vector<Row> between = complete_times({{0, 1}, {1, 1}, {2, 1}}, {{0, 2}, {1, 4}});
+  EXPECT_EQ(between, (std::vector<Row>{{0, 2}, {1, 4}, {2, 3}})) << "the mean, where nothing tells them apart";
+}
+
 TEST(CostModel, TableAndFunctionAgree) {
   const SpectrumProblem problem = random_problem(3, {9, 1, 2, false, true, true});
   const CostTable table(problem.costs);

@@ -47,6 +47,7 @@ concept FrameRecorder = requires(R& recorder) {
   recorder.slices(std::declval<SlicesPass&>());
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -78,7 +79,7 @@ namespace pass {
 inline constexpr rg::Index marks = 0;
 inline constexpr rg::Index slices = 1;
 inline constexpr rg::Index show = 2;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
@@ -88,8 +89,10 @@ inline constexpr rg::Index backbuffer = 2;
 inline constexpr rg::Index mask = 3;
 inline constexpr rg::Index fog = 4;
 inline constexpr rg::Index indices = 5;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});

@@ -23,6 +23,7 @@ struct Imports {
   rg::Required<rg::ImportedImage> backbuffer;  // minimal.rg:7
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -47,14 +48,16 @@ inline constexpr rg::ResourceFigures kResourceFigures[] = {
 namespace pass {
 inline constexpr rg::Index make_waves = 0;
 inline constexpr rg::Index show = 1;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
 inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index waves = 1;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});

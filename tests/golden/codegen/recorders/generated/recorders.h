@@ -110,6 +110,7 @@ concept FrameRecorder = requires(R& recorder) {
   recorder.own_pipelines(std::declval<OwnPipelinesPass&>());
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -161,7 +162,7 @@ inline constexpr rg::Index bloom_first = 5;
 inline constexpr rg::Index bloom_down_1 = 6;
 inline constexpr rg::Index bloom_down_2 = 7;
 inline constexpr rg::Index show = 8;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
@@ -173,8 +174,10 @@ inline constexpr rg::Index color = 4;
 inline constexpr rg::Index bloom = 5;
 inline constexpr rg::Index table = 6;
 inline constexpr rg::Index counted = 7;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Frame : public rg::TypedFrame {
  public:
   static rg::Result<Frame> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});

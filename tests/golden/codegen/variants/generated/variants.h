@@ -23,6 +23,7 @@ struct Imports {
   rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:7
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -50,14 +51,16 @@ namespace pass {
 inline constexpr rg::Index fill = 0;
 inline constexpr rg::Index dim = 1;
 inline constexpr rg::Index show = 2;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
 inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class First : public rg::TypedFrame {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
@@ -91,6 +94,7 @@ struct Imports {
   rg::Required<rg::ImportedImage> backbuffer;  // variants.rg:7
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -118,14 +122,16 @@ namespace pass {
 inline constexpr rg::Index fill = 0;
 inline constexpr rg::Index glow = 1;
 inline constexpr rg::Index show = 2;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
 inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class First : public rg::TypedFrame {
  public:
   static rg::Result<First> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
@@ -164,6 +170,7 @@ struct Features {
   bool bright = false;  // variants.rg:5
 };
 
+// What the class below runs, as data: for tools, and for PlanFile and check_interface.
 const rg::Plan& plan();
 
 // Of the plan at its initial extents; static_assert your budgets on them.
@@ -191,14 +198,16 @@ namespace pass {
 inline constexpr rg::Index fill = 0;
 inline constexpr rg::Index halo = 1;
 inline constexpr rg::Index show = 2;
-}
+}  // namespace pass
 
 // Indices of Plan::resources.
 namespace resource {
 inline constexpr rg::Index backbuffer = 0;
 inline constexpr rg::Index base = 1;
-}
+}  // namespace resource
 
+// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and
+// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.
 class Second : public rg::TypedFrame {
  public:
   static rg::Result<Second> create(rg::Device& device, const Extents& extents, rg::GraphOptions options = {});
