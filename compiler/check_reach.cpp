@@ -41,7 +41,8 @@ bool reads(const dsl::Access& access) { return access.mode != dsl::Mode::write &
 
 template <class Test>
 bool writes_what(const dsl::Pass& pass, Test test) {
-  return std::any_of(pass.accesses.begin(), pass.accesses.end(), [&](const dsl::Access& access) { return access.mode != dsl::Mode::read && test(access); });
+  return std::any_of(pass.accesses.begin(), pass.accesses.end(),
+                     [&](const dsl::Access& access) { return access.mode != dsl::Mode::read && test(access); });
 }
 
 // Those of which no other dead pass behind them wanted anything come first: they are to blame for the others.
@@ -70,7 +71,8 @@ std::string overwritten(const dsl::Graph& graph, const dsl::Pass& pass) {
     for (const dsl::Access& access : next.accesses) {
       const auto same = [&](const dsl::Access& written) { return written.resource == access.resource; };
       if (!writes_what(pass, same)) continue;
-      const bool again = !reads(access) && writes_what(pass, [&](const dsl::Access& written) { return same(written) && written.range == access.range; });
+      const bool again =
+          !reads(access) && writes_what(pass, [&](const dsl::Access& written) { return same(written) && written.range == access.range; });
       const bool always = next.conditions.empty() && next.guard == pass.guard;
       return again && always ? "pass `" + next.name + "` overwrites `" + graph.resources[access.resource].name + "` before anything reads it" : "";
     }
@@ -89,7 +91,9 @@ void check_reach(const dsl::Program& program, dsl::GraphId graph, const std::vec
   dsl::Diagnostic& warning = diagnostics.report(DiagnosticKind::ReachesNothing, dead[0].pass->span, {dead[0].pass->name, dead[0].reason});
   for (size_t i = 1; i < std::min(dead.size(), 1 + kMostNotes); ++i)
     warning.note(DiagnosticKind::AlsoLeftOut, dead[i].pass->span, {dead[i].pass->name, dead[i].reason});
-  if (dead.size() > 1 + kMostNotes) warning.note(DiagnosticKind::NotShown, {}, {std::to_string(dead.size() - 1 - kMostNotes) + " more of its passes are"});
+  if (dead.size() <= 1 + kMostNotes) return;
+  const size_t more = dead.size() - 1 - kMostNotes;
+  warning.note(DiagnosticKind::NotShown, {}, {std::to_string(more) + " more of its passes " + (more == 1 ? "is" : "are")});
 }
 
 }  // namespace rg::compiler

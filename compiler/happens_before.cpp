@@ -146,7 +146,9 @@ void HappensBefore::start(const SyncSource& source) {
 
 std::span<const uint32_t> HappensBefore::on_cell_between(uint32_t cell, uint32_t first, uint32_t end) const {
   const std::vector<uint32_t>& all = on_cell_[cell];
-  const auto at = [&](uint32_t point) { return std::lower_bound(all.begin(), all.end(), point, [&](uint32_t s, uint32_t p) { return scopes[s].point < p; }); };
+  const auto at = [&](uint32_t point) {
+    return std::lower_bound(all.begin(), all.end(), point, [&](uint32_t s, uint32_t p) { return scopes[s].point < p; });
+  };
   return first < end ? std::span<const uint32_t>(at(first), at(end)) : std::span<const uint32_t>();
 }
 

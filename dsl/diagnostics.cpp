@@ -79,7 +79,8 @@ std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most) {
   };
   const std::string a = missing(errors, "error"), b = missing(others, "warning");
   const bool one = std::max(errors, most) + std::max(others, most) == 2 * most + 1;
-  if (!a.empty() || !b.empty()) first.emplace_back(DiagnosticKind::NotShown, Span{}, std::vector{a + (!a.empty() && !b.empty() ? " and " : "") + b + (one ? " is" : " are")});
+  if (!a.empty() || !b.empty())
+    first.emplace_back(DiagnosticKind::NotShown, Span{}, std::vector{a + (!a.empty() && !b.empty() ? " and " : "") + b + (one ? " is" : " are")});
   return first;
 }
 

@@ -53,8 +53,7 @@ class Blocks {
   // What the language of blocks does not have, and what the pass declares in vain.
   void check(const dsl::Graph& graph, const dsl::Pass& pass) {
     const FlatSource& flat = source(pass);
-    if (!flat.missing.empty())
-      return void(diagnostics_.report(DiagnosticKind::ShaderNotReadable, pass.shaders[0].span, {flat.missing, flat.why}));
+    if (!flat.missing.empty()) return void(diagnostics_.report(DiagnosticKind::ShaderNotReadable, pass.shaders[0].span, {flat.missing, flat.why}));
     const std::vector<GlslWord> words = glsl_words(flat.text);
     if (checked_.insert(pass.shaders[0].path).second && !check_words(pass, words)) return;
     check_functions(pass, global_names(words));

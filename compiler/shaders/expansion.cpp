@@ -144,8 +144,13 @@ std::optional<Expansions::Arguments> Expansions::arguments_at(const Words& words
     const Argument* first = argument.empty() ? nullptr : argument_of(argument.front(), scope);
     const Argument* last = argument.empty() ? nullptr : argument_of(argument.back(), scope);
     const std::string_view empty;
-    arguments.push_back({words_of(argument, scope), first ? first->first : argument.empty() ? empty : argument.front(),
-                         last ? last->last : argument.empty() ? empty : argument.back()});
+    arguments.push_back({words_of(argument, scope),
+                         first              ? first->first
+                         : argument.empty() ? empty
+                                            : argument.front(),
+                         last               ? last->last
+                         : argument.empty() ? empty
+                                            : argument.back()});
     argument.clear();
     if (depth == 0) return at = i + 1, std::move(arguments);
   }

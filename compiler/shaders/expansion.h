@@ -28,7 +28,7 @@ class Expansions {
   void add_macros(const std::vector<GlslWord>& words);
 
   struct Measure {
-    uint64_t words = 0;              // kMostWords + 1 is any number beyond
+    uint64_t words = 0;                 // kMostWords + 1 is any number beyond
     const GlslWord* longest = nullptr;  // the word of the text that becomes longest; null in an empty text
   };
   Measure measure(const std::vector<GlslWord>& text);

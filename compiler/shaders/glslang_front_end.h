@@ -14,7 +14,7 @@ namespace rg::compiler {
 struct ShaderMessage {
   std::string file;
   uint32_t line = 0;
-  std::string text;  // "'foo' : undeclared identifier"
+  std::string text;          // "'foo' : undeclared identifier"
   std::string expands = {};  // the macro that becomes longer than kMostWords, instead of a text
   friend bool operator==(const ShaderMessage&, const ShaderMessage&) = default;
 };

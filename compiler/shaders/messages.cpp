@@ -142,7 +142,8 @@ void note_types(const PassContext& context, const ShaderMessage& message, Shader
   if (!contains(message.text, "no matching overloaded function") && !contains(message.text, "can't use with samplers")) return;
   const dsl::Span line = places.line(message.file, message.line);
   for (const dsl::Access& access : context.pass.accesses)
-    if (places.word_in_line(message.file, message.line, access.name) != line) error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
+    if (places.word_in_line(message.file, message.line, access.name) != line)
+      error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
 }
 
 // A name the declaration chose and GLSL refuses, `input` for one.
@@ -164,9 +165,9 @@ void report_message(const PassContext& context, const dsl::Shader& shader, const
                             {message.expands, std::to_string(kMostWords)})
                     .note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name}));
   if (message.file.empty() && message.line > 0) return report_in_prelude(context, shader, prelude, message, diagnostics);
-  if (!message.file.empty() && (report_contradiction(context, message, places, diagnostics) ||
-                                report_undeclared(context, message, places, diagnostics) || report_field(context, message, places, diagnostics) ||
-                                report_local_size(context, message, places, diagnostics)))
+  if (!message.file.empty() &&
+      (report_contradiction(context, message, places, diagnostics) || report_undeclared(context, message, places, diagnostics) ||
+       report_field(context, message, places, diagnostics) || report_local_size(context, message, places, diagnostics)))
     return;
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);

@@ -85,11 +85,13 @@ TEST(Profiles, LimitsCountAtTheLargestExtents) {
 // Arrays of a shader are no declaration of the frame: what they take is judged once the shader is compiled.
 TEST(Profiles, SharedMemoryHasALimit) {
   const std::string frame =
-      "graph g(surface s: rgba8 64x64) { image a : rgba16f 64x64 pass p : compute { shader \"p.comp\" group 64 1 1 write a as storage dispatch over a }\n"
+      "graph g(surface s: rgba8 64x64) { image a : rgba16f 64x64 pass p : compute { shader \"p.comp\" group 64 1 1 write a as storage dispatch over "
+      "a }\n"
       "pass q : raster { read a as sampled in fragment color s clear 0 } }";
   const auto of = [&](int vectors, const std::string& promise) {
-    const std::string shader = "shared vec4 all[" + std::to_string(vectors) +
-                               "];\nvoid main() { all[gl_LocalInvocationIndex] = vec4(1.0); barrier(); imageStore(a, ivec2(0), all[gl_LocalInvocationIndex ^ 1u]); }";
+    const std::string shader =
+        "shared vec4 all[" + std::to_string(vectors) +
+        "];\nvoid main() { all[gl_LocalInvocationIndex] = vec4(1.0); barrier(); imageStore(a, ivec2(0), all[gl_LocalInvocationIndex ^ 1u]); }";
     return check({frame, promise, shader});
   };
   const std::string most = R"("maxComputeWorkGroupInvocations": 128, "maxComputeSharedMemorySize": 32768)";
@@ -99,7 +101,8 @@ TEST(Profiles, SharedMemoryHasALimit) {
   const dsl::Diagnostics beyond = of(2049, profile("", most)), without = of(1025, kNoProfile);
   ASSERT_EQ(kinds(beyond), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
   EXPECT_EQ(beyond.rows()[0].message(),
-            "shader `p.comp` of pass `p` takes 32784 bytes of shared memory and profile `VP_TEST` promises 32768; take less, or target a profile that promises "
+            "shader `p.comp` of pass `p` takes 32784 bytes of shared memory and profile `VP_TEST` promises 32768; take less, or target a profile "
+            "that promises "
             "more");
   ASSERT_EQ(kinds(without), std::vector<DiagnosticKind>{DiagnosticKind::SharedMemory});
   EXPECT_EQ(without.rows()[0].arguments[3], "vulkan 1.3");

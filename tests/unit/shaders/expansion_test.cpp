@@ -24,15 +24,15 @@ TEST(Expansion, CountsWhatThePreprocessorWouldMake) {
   EXPECT_EQ(count("#define TWO(x) x x\nTWO(TWO(a)) b"), 5u);
   EXPECT_EQ(count("#define A 1 + 2\n#define B A * A\nB;"), 8u);
   EXPECT_EQ(count("#define F(a, b) a + b\nF((1, 2), 3)"), 7u);
-  EXPECT_EQ(count("#define F(a) a\nF + 1"), 3u);          // no call
-  EXPECT_EQ(count("#define F (a)\nF"), 3u);               // no parameters
+  EXPECT_EQ(count("#define F(a) a\nF + 1"), 3u);           // no call
+  EXPECT_EQ(count("#define F (a)\nF"), 3u);                // no parameters
   EXPECT_EQ(count("#define A \\\n  1 + \\\n  1\nA"), 3u);  // over several lines
 }
 
 TEST(Expansion, NamesThatPassThroughParametersAndPastesAreFollowed) {
   EXPECT_EQ(count("#define LIST(X) X(a) X(b) X(c)\n#define USE(n) n + n;\nLIST(USE)"), 12u);
   EXPECT_EQ(count("#define N1 1 1 1\n#define N(i) N##i\nN(1)"), 3u);
-  EXPECT_EQ(count("#define TWO(x) x x\n#define ALIAS TWO\nALIAS(a)"), 3u);      // `TWO` itself counts, as an upper bound
+  EXPECT_EQ(count("#define TWO(x) x x\n#define ALIAS TWO\nALIAS(a)"), 3u);  // `TWO` itself counts, as an upper bound
   EXPECT_EQ(count("#define TWO(x) x x\n#define MORE 1 + TWO\nMORE(a)"), 5u);
 }
 
