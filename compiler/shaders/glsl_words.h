@@ -8,6 +8,8 @@
 
 namespace rg::compiler {
 
+bool is_word(char c);  // part of a name or number, in ASCII
+
 // A word of GLSL: an identifier, a number, or one character of anything else. Comments are none.
 struct GlslWord {
   std::string_view text;

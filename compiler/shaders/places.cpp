@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <cctype>
 
 #include "compiler/shaders/agreement.h"
+#include "compiler/shaders/glsl_words.h"
 
 namespace rg::compiler {
 namespace {
-
-bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 // Of `name` as a whole word at or after `from` and before `end`, not behind `//` on its line; npos if there is none.
 size_t find_word(const std::string& text, const std::string& name, size_t from, size_t end) {

@@ -4,10 +4,10 @@
 #include <bit>
 #include <sstream>
 
+#include "compiler/shaders/glsl_words.h"
+
 namespace rg::compiler {
 namespace {
-
-bool is_word(char c) { return c == '_' || (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
 bool names(const std::string& text, const std::string& word) {
   for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
