@@ -75,11 +75,12 @@ RecordRow function_of(const Sized& sized, const StepRow& row) {
                                : row_function<Target::middle>(pass);
 }
 
-// Passes [begin, end) of one rendering: if each of them runs whatever the frame, nobody has to ask whether it has begun.
+// Passes [begin, end) of one rendering: if each of them runs whatever the frame, and none goes the way of instruments, nobody has to ask whether it
+// has begun.
 bool all_run(const Sized& sized, size_t begin, size_t end) {
   for (size_t i = begin; i < end; ++i) {
     const PassRow& pass = sized.rows[sized.step_rows[i].pass];
-    if (!pass.runs || pass.guard != 0 || !pass.fixed_views || pass.classic) return false;
+    if (!pass.runs || pass.guard != 0 || function_of(sized, sized.step_rows[i]) == record_any) return false;
   }
   return true;
 }

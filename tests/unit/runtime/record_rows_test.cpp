@@ -1,4 +1,5 @@
-// A frame that nobody watches is recorded from packed rows, with timestamps or without; what it records is what a frame with statistics records, but for those.
+// A frame that nobody watches is recorded from packed rows, with timestamps or without; what it records is what a frame with statistics records, but
+// for those.
 #include <algorithm>
 
 #include "runtime/functions.h"
@@ -37,6 +38,30 @@ TestPlan shared(uint32_t count, uint32_t guarded) {
   return p;
 }
 
+// Two renderings of two passes each, into transients that acquire their bytes right before.
+TestPlan acquired() {
+  TestPlan p;
+  const Index side = p.constant(8);
+  constexpr std::string_view kNames[] = {"a", "bb", "ccc", "dddd"};
+  for (Index group = 0; group < 2; ++group) {
+    const Index image = p.image(group == 0 ? "first" : "second", test::kRgba8, side, side, test::kColorAttachment);
+    const Index barrier = static_cast<Index>(p.image_barriers.size());
+    p.barriers({test::discard(image, stage::color_attachment_output, access::color_attachment_write, Layout::color_attachment,
+                              stage::color_attachment_output)});
+    p.acquires.push_back({image, group, barrier, 1, stage::color_attachment_output, access::color_attachment_write, 0, group,
+                          static_cast<Index>(p.alias_clocks.size())});
+    p.alias_clocks.insert(p.alias_clocks.end(), {group, 2});
+    p.releases.push_back({image, stage::color_attachment_output, access::color_attachment_write, 0, group + 1});
+    const Index rendering = test::one_color_rendering(p, image, side, side, LoadOp::clear, {});
+    for (Index i = 2 * group; i < 2 * group + 2; ++i) {
+      Pass pass;
+      pass.name = kNames[i], pass.kind = PassKind::raster, pass.work.kind = WorkKind::host, pass.host_slot = i, pass.rendering = rendering;
+      p.pass(pass, {test::touches({image, 0}, stage::color_attachment_output, access::color_attachment_write, Layout::color_attachment, true)});
+    }
+  }
+  return p;
+}
+
 struct Shape {
   std::string name;
   TestPlan plan;
@@ -47,7 +72,8 @@ std::vector<Shape> shapes() {
                             {"tint", test::tint().plan},
                             {"relay", test::relay().plan},
                             {"mips", test::mips().plan},
-                            {"aliased", test::aliased().plan}};
+                            {"aliased", test::aliased().plan},
+                            {"acquired", acquired()}};
   for (const uint32_t guarded : {0u, 2u, 4u, 6u, 8u}) {
     all.push_back({"shared, guarded " + std::to_string(guarded), shared(3, guarded)});
     all.push_back({"alone, guarded " + std::to_string(guarded), shared(1, guarded & 8)});
