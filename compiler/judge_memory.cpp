@@ -37,10 +37,11 @@ void judge_memory(const dsl::Program& program, dsl::GraphId graph_id, dsl::Diagn
   const std::vector<int64_t> extents = dsl::maximum_extents(program);
   for (uint32_t r = 0; r < graph.resources.size(); ++r) {
     const dsl::Resource& resource = graph.resources.rows[r];
-    const dsl::Pass* user = first_user(graph, r);
-    if (resource.lifetime == dsl::Lifetime::imported || !user) continue;
+    if (resource.lifetime == dsl::Lifetime::imported) continue;
     const auto bytes = static_cast<double>(bytes_of(resource, exprs, extents));
     if (bytes <= most) continue;
+    const dsl::Pass* user = first_user(graph, r);
+    if (!user) continue;
     const char* kind = resource.kind == dsl::ResourceKind::image ? "image" : "buffer";
     const std::string way_out = fmt::format("pass `{}` uses it first: make it smaller or several, or name a target profile with a greater `{}`", user->name, kLimit);
     diagnostics.report(dsl::DiagnosticKind::NoMemoryHolds, resource.span, {kind, resource.name, gibibytes(bytes), gibibytes(most), way_out});
