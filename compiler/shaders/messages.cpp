@@ -49,11 +49,24 @@ std::string plain_text(const dsl::Shader& shader, const ShaderMessage& message) 
   return word == "#include" ? include_text(message.text) : restyle(message.text);
 }
 
+// How an image is accessed that stands in this line as the first argument of one of GLSL's functions for storage images, or else of those for
+// textures.
+std::string image_access(const std::string& image, const std::string& name, const std::string& line) {
+  const auto is_first_argument = [&](const char* function) {
+    const size_t call = line.find(function), open = call == std::string::npos ? call : line.find('(', call);
+    const size_t first = open == std::string::npos ? open : line.find_first_not_of(' ', open + 1);
+    return first != std::string::npos && line.compare(first, name.size(), name) == 0;
+  };
+  if (is_first_argument("imageStore")) return "write " + image + " as storage";
+  if (is_first_argument("imageAtomic")) return "atomic " + image;
+  return "read " + image + (is_first_argument("imageLoad") ? " as storage" : " as sampled");
+}
+
 // What to write in the pass to get `name`, if the graph has such a thing.
-std::string suggestion(const PassContext& context, const std::string& name) {
+std::string suggestion(const PassContext& context, const std::string& name, const std::string& line) {
   for (const dsl::Resource& resource : context.graph.resources)
     if (last_part(resource.name) == name)
-      return "read " + resource.name + (resource.kind == dsl::ResourceKind::image ? " as sampled" : " as storage");
+      return resource.kind == dsl::ResourceKind::image ? image_access(resource.name, name, line) : "read " + resource.name + " as storage";
   for (const dsl::Params& params : context.graph.params)
     if (!params.pass.valid() && last_part(params.name) == name) return "params " + params.name;
   for (const dsl::Feature& feature : context.program.features)
@@ -86,7 +99,8 @@ bool report_contradiction(const PassContext& context, const ShaderMessage& messa
 
 bool report_undeclared(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
   const std::string name = quoted_word(message.text);
-  const std::string declaration = contains(message.text, "undeclared identifier") ? suggestion(context, name) : "";
+  const std::string declaration =
+      contains(message.text, "undeclared identifier") ? suggestion(context, name, places.text_of_line(message.file, message.line)) : "";
   if (declaration.empty()) return false;
   diagnostics.report(DiagnosticKind::UndeclaredAccess, places.word_in_line(message.file, message.line, name), {name, context.pass.name})
       .note(DiagnosticKind::DeclareAccess, context.pass.span, {declaration});
@@ -137,6 +151,15 @@ bool report_local_size(const PassContext& context, const ShaderMessage& message,
   return true;
 }
 
+// Who assigns to a name that is none means an output, and outputs are called what the pass calls its attachments.
+void note_outputs(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostic& error) {
+  const std::string name = quoted_word(message.text), line = places.text_of_line(message.file, message.line);
+  const size_t at = line.find(name), after = at == std::string::npos ? at : line.find_first_of("=;", at);
+  if (!contains(message.text, "undeclared identifier") || after == std::string::npos || line[after] != '=') return;
+  for (const dsl::Access& access : context.pass.accesses)
+    if (access.role == dsl::Role::color) error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
+}
+
 // What a name is in GLSL follows from its declaration, which glslang does not know of.
 void note_types(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostic& error) {
   if (!contains(message.text, "no matching overloaded function") && !contains(message.text, "can't use with samplers")) return;
@@ -173,6 +196,7 @@ void report_message(const PassContext& context, const dsl::Shader& shader, const
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
   dsl::Diagnostic error(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)});
   if (!message.file.empty()) note_types(context, message, places, error);
+  if (!message.file.empty() && shader.stage == dsl::stage_fragment) note_outputs(context, message, places, error);
   error.note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
   diagnostics.report(std::move(error));
 }

@@ -102,6 +102,30 @@ TEST_F(CompileShaders, UndeclaredResourceOfTheGraph) {
             "  RG0453 passes.rg:3:8 declare it in the pass, for example `read albedo as sampled`\n");
 }
 
+TEST_F(CompileShaders, UndeclaredResourcesAreSuggestedAsTheyAreUsed) {
+  const std::pair<const char*, const char*> cases[] = {{"imageStore(albedo, ivec2(0), vec4(1));", "write albedo as storage"},
+                                                       {"vec4 v = imageLoad( albedo, ivec2(0));", "read albedo as storage"},
+                                                       {"imageAtomicAdd(albedo, ivec2(0), 1u);", "atomic albedo"},
+                                                       {"vec4 v = texelFetch(albedo, ivec2(0), 0);", "read albedo as sampled"}};
+  for (const auto& [body, declaration] : cases) {
+    Fixture f;
+    f.image("albedo", Format::rgba8);
+    f.compute({f.access(f.image("hdr", Format::rgba16f), Mode::write, Role::storage)},
+              std::string("void main() {\n  imageStore(hdr, ivec2(0), vec4(1));\n  ") + body + "\n}\n");
+    f.compile();
+    EXPECT_NE(f.report().find(std::string("for example `") + declaration + "`"), std::string::npos) << body << "\n" << f.report();
+  }
+}
+
+TEST_F(CompileShaders, AssignmentsToNoNameNoteTheOutputs) {
+  const auto hdr = image("hdr", Format::rgba16f);
+  raster({access(hdr, Mode::write, Role::color)}, "void main() { gl_Position = vec4(0); }\n", "void main() {\n  out_color = vec4(1);\n}\n");
+  compile();
+  EXPECT_EQ(report().substr(0, report().find("  RG0450")),
+            "RG0402 draw.frag:2:3 `out_color`: undeclared identifier\n"
+            "  RG0451 passes.rg:6:5 `hdr` is declared here\n");
+}
+
 TEST_F(CompileShaders, WriteThroughRead) {
   const auto mask = buffer("mask", kUint);
   compute({access(mask, Mode::read, Role::storage)}, "void main() {\n  mask[0] = 1u;\n}\n");
