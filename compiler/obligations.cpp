@@ -60,7 +60,8 @@ class CellWalk {
         add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, UINT32_MAX, nullptr, unread, {}};
     if (!rows.empty()) layout_ = rows.front().row.layout, owner_ = rows.front().row.discard ? kNone : rows.front().row.queue;
     bool writes = false, any = false;
-    for (const auto& [cell, row] : rows) {
+    for (const auto& named : rows) {
+      const auto& row = named.row;  // a binding is not for lambdas, before clang 16
       if (row.stages == 0) continue;
       any = true;
       order_.sources[settled.source].reached.emplace_back(row.queue, row.stages);
@@ -249,7 +250,8 @@ class CellWalk {
 
   void leave_write(const Pending& write, Rows rows, std::vector<SyncFact>& facts) {
     std::vector<Visible> wanted;
-    for (const auto& [cell, row] : rows) {
+    for (const auto& named : rows) {
+      const auto& row = named.row;  // a binding is not for lambdas, before clang 16
       if (write.stage && row.queue == write.queue && (row.stages & write.stage) && (row.accesses & write.access)) return;
       Stages writers = 0;
       each_bit(row.stages, [&](Stages stage) { writers |= row.accesses & kWrites & supported_accesses(stage) ? stage : 0; });

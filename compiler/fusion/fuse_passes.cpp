@@ -40,7 +40,7 @@ const Forbidden* forbidden(const GlslWord& word) {
 class Blocks {
  public:
   Blocks(const ReadFile& read, dsl::SourceFiles& files, dsl::Diagnostics& diagnostics)
-      : read_(read), sources_(read), places_(files, sources_), diagnostics_(diagnostics) {}
+      : sources_(read), places_(files, sources_), diagnostics_(diagnostics) {}
 
   // The source of a pass's block; what is wrong with it is reported once.
   const FlatSource& source(const dsl::Pass& pass) {
@@ -106,7 +106,6 @@ class Blocks {
       if (!names.contains(name)) diagnostics_.report(DiagnosticKind::BlockFunction, pass.shaders[0].span, {pass.shaders[0].path, name});
   }
 
-  const ReadFile& read_;
   ShaderSources sources_;
   ShaderPlaces places_;
   dsl::Diagnostics& diagnostics_;

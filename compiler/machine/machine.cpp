@@ -6,7 +6,6 @@
 #include <bit>
 #include <functional>
 #include <numeric>
-#include <ranges>
 
 #include "compiler/machine/hand_offs.h"
 #include "compiler/machine/memory.h"
@@ -95,8 +94,8 @@ class Closures {
  public:
   explicit Closures(const Predecessors& predecessors) : words_((predecessors.size() + 63) / 64), bits_(predecessors.size() * words_) {
     for (uint32_t e = 0; e < predecessors.size(); ++e) {
-      for (const uint32_t before : predecessors[e] | std::views::reverse)  // the latest imply most of the others
-        if (!has(e, before)) join(e, before);
+      for (size_t i = predecessors[e].size(); i-- > 0;)  // the latest imply most of the others
+        if (const uint32_t before = predecessors[e][i]; !has(e, before)) join(e, before);
       bits_[e * words_ + e / 64] |= uint64_t{1} << (e % 64);
     }
   }
