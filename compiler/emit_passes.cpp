@@ -44,15 +44,17 @@ Index engine_set_of(const dsl::Program& program, const std::string& bind) {
   return found == program.engine_sets.end() ? kNone : static_cast<Index>(found - program.engine_sets.begin());
 }
 
-// A rendering of several passes stores what some of them wrote, also where the pass at hand only reads it.
-void add_stores(const Schedule& schedule, size_t position, PlanData& plan, const Pass& row) {
+// A rendering of several passes loads what some of them need and stores what some of them wrote, whatever the pass at hand does itself.
+void add_loads_and_stores(const Schedule& schedule, size_t position, PlanData& plan, const Pass& row) {
   const auto shares = [&](size_t other) { return other < schedule.order.size() && schedule.one_rendering(schedule.order[position], schedule.order[other]); };
   if (row.rendering == kNone || (!shares(position + 1) && (position == 0 || !shares(position - 1)))) return;
   const Rendering& rendering = plan.renderings[row.rendering];
   const auto add = [&](const Attachment& attachment, Accesses reads, Accesses writes) {
     for (Index a = row.first_access; a < row.first_access + row.access_count; ++a) {
       Access& access = plan.accesses[a];
-      if (attachment.store != StoreOp::none && access.ref == attachment.ref && (access.accesses & (reads | writes))) access.accesses |= writes;
+      if (access.ref != attachment.ref || (access.accesses & (reads | writes)) == 0) continue;
+      if (attachment.load == LoadOp::load) access.accesses |= reads;
+      if (attachment.store != StoreOp::none) access.accesses |= writes;
     }
   };
   for (Index i = 0; i < rendering.color_count; ++i)
@@ -76,7 +78,7 @@ void emit_pass(const PlanParts& parts, const PlanIndices& indices, size_t positi
   row.first_mip_limit = static_cast<Index>(plan.mip_limits.size()), row.mip_limit_count = static_cast<Index>(from.mip_limits.size());
   for (const dsl::MipLimit& limit : from.mip_limits) plan.mip_limits.push_back({indices.resource[limit.image.value], limit.mip});
   emit_rendering(parts, indices, position, exprs, plan, row);
-  add_stores(parts.schedule, position, plan, row);
+  add_loads_and_stores(parts.schedule, position, plan, row);
   emit_work(parts, indices, pass, exprs, plan, row);
   plan.passes.push_back(row);
 }
