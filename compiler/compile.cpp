@@ -161,6 +161,21 @@ std::vector<std::string> load(const std::string& root_path, const dsl::ReadSourc
   return profiles;
 }
 
+// What the graphs ask of devices, beside what the target profiles promise.
+void judge_devices(const CompileResult& result, dsl::Diagnostics& diagnostics) {
+  for (const CompiledGraph& graph : result.graphs) {
+    judge_profiles(result.program, graph.graph, graph.shaders, diagnostics);
+    judge_memory(result.program, graph.graph, diagnostics);
+  }
+}
+
+// What no plan of any configuration runs, and what the program asserts about its plans.
+void judge_plans(const CompileResult& result, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  for (const CompiledGraph& graph : result.graphs)
+    if (options.fixed_features.empty()) check_reach(result.program, graph.graph, graph.plans, diagnostics);
+  for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);
+}
+
 }  // namespace
 
 // The whole compiler, top to bottom. Each step consumes only what is above it.
@@ -200,11 +215,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (diagnostics.has_errors()) return result;
   for (const CompiledGraph& graph : result.graphs) result.program = resolve_stages(std::move(result.program), graph.graph, graph.shaders);
 
-  // What the graphs ask of devices, beside what the target profiles promise.
-  for (const CompiledGraph& graph : result.graphs) {
-    judge_profiles(result.program, graph.graph, graph.shaders, diagnostics);
-    judge_memory(result.program, graph.graph, diagnostics);
-  }
+  judge_devices(result, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
   // What switches name, and queues that passes insist on.
@@ -218,10 +229,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // Program to plans, one a configuration.
   for (CompiledGraph& graph : result.graphs) graph.plans = plan_all(result, graph, options, diagnostics);
 
-  // What no plan of any configuration runs, and what the program asserts about its plans.
-  for (const CompiledGraph& graph : result.graphs)
-    if (options.fixed_features.empty()) check_reach(result.program, graph.graph, graph.plans, diagnostics);
-  for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);
+  judge_plans(result, options, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::plans) return result;
 
   // Plans and SPIR-V to files.

@@ -250,9 +250,11 @@ bool has_feature_of(const Rules& rules, Capability capability) {
 
 // What not every device has holds where a feature of the pass says that the device does: one has to.
 void check_capabilities(const Rules& rules, const State& state) {
-  static constexpr std::pair<Capability, const char*> kNames[] = {{Capability::depth_bounds, "depth_bounds"},
-                                                                  {Capability::conservative_rasterization, "conservative_rasterization"},
-                                                                  {Capability::sample_locations, "sample_locations"}};
+  static constexpr std::pair<Capability, const char*> kNames[] = {
+#define RG_CAPABILITY(name, meaning) {Capability::name, #name},
+#include "dsl/capability.def"
+#undef RG_CAPABILITY
+  };
   for (const auto& [capability, name] : kNames) {
     if (!asks(state, capability) || has_feature_of(rules, capability)) continue;
     const std::string way_out = std::string("declare `feature NAME : device ") + name + "` and name it in `features` of the pass: where a device has none, the pass draws without";

@@ -260,6 +260,9 @@ void merge_reads_and_writes(Pass& pass);
 // Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a report.
 bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
 void name_hidden_accesses(Pass& pass);
+bool is_shader_role(Role role);
+bool is_attachment(Role role);
+bool is_written(Mode mode);
 // ---- check_roles.cpp
 const char* word_of(Role role);
 bool reads_only(Role role);
@@ -267,9 +270,6 @@ bool suits_kind(const Resource& resource, Role role);
 bool is_storage_format(Format format);
 // Whether somebody can bring the resource in that state, or take it in it. False after a report.
 bool check_boundary(Checker& checker, const Resource& resource, const BoundaryState& state, Span span);
-bool is_shader_role(Role role);
-bool is_attachment(Role role);
-bool is_written(Mode mode);
 
 // ---- check_control.cpp ------------------------------------------------------------------------------------------
 void check_graph(Checker& checker, uint32_t symbol);

@@ -18,11 +18,6 @@ constexpr const char* kHeader[] = {
     "#extension GL_EXT_nonuniform_qualifier : enable",
 };
 
-std::string last_part(const std::string& name) {
-  const size_t dot = name.rfind('.');
-  return dot == std::string::npos ? name : name.substr(dot + 1);
-}
-
 // ---- constants and structs
 
 void add_constants(const dsl::Program& program, Prelude& prelude) {
@@ -235,6 +230,11 @@ bool binding_kind(const dsl::Graph& graph, const dsl::Access& access, BindingKin
 }
 
 }  // namespace
+
+std::string last_part(const std::string& name) {
+  const size_t dot = name.rfind('.');
+  return dot == std::string::npos ? name : name.substr(dot + 1);
+}
 
 const char* const kFullscreenVertexShader =
     "#version 460\n"

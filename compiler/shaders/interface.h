@@ -35,6 +35,7 @@ struct InterfaceBinding {
   std::string name;
   dsl::Span span;  // of the declaration
 };
+std::string last_part(const std::string& name);  // `tiles` of `lamps.tiles`
 // What shaders call the descriptor of an access: its name, but for elements, whose name is that of a variable.
 std::string binding_name(const dsl::Access& access);
 std::vector<InterfaceBinding> pass_bindings(const dsl::Program& program, const dsl::Graph& graph, const dsl::Pass& pass);

@@ -1,9 +1,9 @@
 // glslang says what the language forbids; here it becomes what the pass forbids, where the two are the same mistake.
 #include <algorithm>
-#include <cctype>
 
 #include "compiler/shaders/agreement.h"
 #include "compiler/shaders/expansion.h"
+#include "compiler/shaders/interface.h"
 #include "dsl/closest.h"
 
 namespace rg::compiler {
@@ -13,11 +13,6 @@ using dsl::Diagnostic;
 using dsl::DiagnosticKind;
 
 bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
-
-std::string last_part(const std::string& name) {
-  const size_t dot = name.rfind('.');
-  return dot == std::string::npos ? name : name.substr(dot + 1);
-}
 
 std::string quoted_word(const std::string& message) {
   const size_t begin = message.find('\''), end = message.find('\'', begin + 1);
@@ -55,7 +50,7 @@ std::string image_access(const std::string& image, const std::string& name, cons
   const auto is_first_argument = [&](const char* function) {
     const size_t call = line.find(function), open = call == std::string::npos ? call : line.find('(', call);
     const size_t first = open == std::string::npos ? open : line.find_first_not_of(' ', open + 1);
-    return first != std::string::npos && line.compare(first, name.size(), name) == 0;
+    return first != std::string::npos && line.compare(first, name.size(), name) == 0 && (first + name.size() == line.size() || !is_word(line[first + name.size()]));
   };
   if (is_first_argument("imageStore")) return "write " + image + " as storage";
   if (is_first_argument("imageAtomic")) return "atomic " + image;
@@ -114,7 +109,6 @@ dsl::StructId struct_before(const PassContext& context, const std::string& line,
   for (int depth = 0; at > 0 && (depth > 0 || line[at - 1] == ']'); --at) depth += line[at - 1] == ']' ? 1 : line[at - 1] == '[' ? -1 : 0;
   const std::string before = line.substr(0, at);
   const auto named = [&](const std::string& name) {
-    const auto is_word = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
     return before.ends_with(name) && (before.size() == name.size() || !is_word(before[before.size() - name.size() - 1]));
   };
   for (const dsl::Access& access : context.pass.accesses)

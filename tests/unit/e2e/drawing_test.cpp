@@ -10,14 +10,6 @@
 namespace rg::test {
 namespace {
 
-// A pass `show` that hands the 8x8 texels of `seen`, an image of r32ui, to the host.
-const std::string kShow = R"(
-  buffer shown : u32[64] readback
-  pass show : compute { shader "show.comp" group 8 8 1  read seen as sampled  write shown as storage  dispatch over 8x8 }
-})";
-const char* const kShowShader =
-    "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(seen, at, 0).x; }";
-
 // The 64 texels after a frame under validation; skips the test without a device.
 #define RUN(words, ...)                                    \
   const auto found = run(__VA_ARGS__, 1, true);            \

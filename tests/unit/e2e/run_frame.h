@@ -12,6 +12,14 @@ namespace rg::test {
 
 using Words = std::vector<uint32_t>;
 
+// Ends a frame with a pass `show` that hands the 8x8 texels of `seen`, an image of r32ui, to the host; and its shader, show.comp.
+inline const std::string kShow = R"(
+  buffer shown : u32[64] readback
+  pass show : compute { shader "show.comp" group 8 8 1  read seen as sampled  write shown as storage  dispatch over 8x8 }
+})";
+inline constexpr const char* kShowShader =
+    "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(seen, at, 0).x; }";
+
 // The checker finds nothing wrong with any plan.
 void expect_proved(const compiler::CompileResult& result);
 
