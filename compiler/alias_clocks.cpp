@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "compiler/access_table.h"
 #include "dsl/check_macro.h"
@@ -9,11 +10,17 @@
 namespace rg::compiler {
 namespace {
 
-// For each queue the last point known to have completed, plus one, so that 0 is nothing: of this frame, then of the frame before.
-using Clock = std::vector<Index>;
+// What is known to have completed of a queue: all points below `end`, by the signal of `batch`.
+struct Known {
+  Index end = 0;
+  Index batch = kNone;
+};
+// For each queue: of this frame, then of the frame before.
+using Clock = std::vector<Known>;
 
 void join(Clock& into, const Clock& other) {
-  for (size_t i = 0; i < into.size(); ++i) into[i] = std::max(into[i], other[i]);
+  for (size_t i = 0; i < into.size(); ++i)
+    if (into[i].end < other[i].end) into[i] = other[i];
 }
 
 // What was this frame's becomes the frame before's.
@@ -29,12 +36,12 @@ class Knowledge {
  public:
   explicit Knowledge(size_t queues) : empty_(2 * queues) {}
   void learn(Stages stages, const Clock& clock) { join(by_stages_.try_emplace(with_later(stages), empty_).first->second, clock); }
-  // From waits of which `counts` accepts the stages.
-  template <class Counts>
-  Clock gathered(Counts counts) const {
+  // To what has `stages` for its first scope: it goes on after the waits that this scope meets.
+  Clock known_to(Stages stages) const {
     Clock result = empty_;
-    for (const auto& [stages, clock] : by_stages_)
-      if (counts(stages)) join(result, clock);
+    const Stages scope = with_earlier(stages);
+    for (const auto& [waited, clock] : by_stages_)
+      if ((waited & scope) != 0 || (stages & stage::all_commands) != 0) join(result, clock);
     return result;
   }
   void age() {
@@ -46,22 +53,68 @@ class Knowledge {
   std::map<Stages, Clock> by_stages_;
 };
 
-class Finder {
+// Releases of one queue that none of its signals has come after, grouped by what they lack.
+class Uncovered {
  public:
-  Finder(PlanData& plan, const OverAt& over_at) : plan_(plan), over_at_(over_at), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_) {
-    for (size_t b = 0; b < plan.batches.size(); ++b)
-      if (plan.batches[b].signal_count > 0) batch_of_[plan.batches[b].queue].push_back(b);
+  void add(const Release& release, Index over_at) { keep({release.stages, release.accesses != 0, over_at}, release.point); }
+  // The signal of `batch`. Writes become available only in stages that it names; what merely has to be over may be in earlier ones.
+  void name(Stages stages, Index batch) {
+    std::map<Lack, Index> before;
+    before.swap(first_);
+    for (const auto& [row, point] : before) {
+      Lack lack = row;
+      lack.stages &= ~(lack.writes ? stages : with_earlier(stages));
+      if (lack.stages != 0 && batch < lack.over_at && (stages & stage::all_commands) == 0) keep(lack, point);
+    }
+  }
+  // What a signal would have to name for all of them.
+  Stages missing() const {
+    Stages writes = 0, reads = 0;
+    for (const auto& [lack, point] : first_) (lack.writes ? writes : reads) |= lack.stages;
+    return writes | latest_stages(reads & ~with_earlier(writes));
+  }
+  std::optional<Index> first_point() const {
+    std::optional<Index> first;
+    for (const auto& [lack, point] : first_) first = std::min(first.value_or(point), point);
+    return first;
   }
 
-  void run() {
+ private:
+  struct Lack {
+    Stages stages = 0;
+    bool writes = false;
+    Index over_at = kNone;  // the signal of this batch is known to come after them
+    auto operator<=>(const Lack&) const = default;
+  };
+  void keep(const Lack& lack, Index point) {
+    Index& first = first_.try_emplace(lack, point).first->second;
+    first = std::min(first, point);
+  }
+  std::map<Lack, Index> first_;  // by what they lack: the first of their points
+};
+
+class Finder {
+ public:
+  Finder(PlanData& plan, const OverAt& over_at)
+      : plan_(plan), over_at_(over_at), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_), covered_(plan.batches.size()),
+        signalled_(plan.batches.size(), Clock(2 * queues_)), relied_(plan.batches.size()) {
+    for (size_t b = 0; b < plan.batches.size(); ++b)
+      if (plan.batches[b].signal_count > 0) batch_of_[plan.batches[b].queue].push_back(b);
     number_points();
     for (const Release& release : plan_.releases) releases_[release.queue].push_back(&release);
     for (auto& rows : releases_) std::sort(rows.begin(), rows.end(), [](const Release* a, const Release* b) { return a->point < b->point; });
+  }
+
+  // `visit(batch, uncovered)` may name further stages before each signal counts.
+  template <class Visit>
+  void run(Visit visit) {
+    for (size_t queue = 0; queue < queues_; ++queue) cover(queue, visit);
     // Twice, so that the second frame finds what the first has learnt.
     std::vector<Knowledge> known(queues_, Knowledge(queues_));
-    signalled_.assign(plan_.batches.size(), Clock(2 * queues_));
     for (const bool second : {false, true}) walk_frame(known, second);
   }
+  // Some clock counts as far as the signal of this batch covers.
+  bool is_relied_on(size_t batch) const { return relied_[batch]; }
 
  private:
   void number_points() {
@@ -89,6 +142,23 @@ class Finder {
     for (Acquire& acquire : plan_.acquires) acquire.queue = queue_of_group[acquire.group], acquire.point = point_of_group[acquire.group];
   }
 
+  template <class Visit>
+  void cover(size_t queue, Visit visit) {
+    Uncovered uncovered;
+    size_t next = 0;
+    for (const size_t b : batch_of_[queue]) {
+      for (; next < releases_[queue].size() && releases_[queue][next]->point <= end_of_batch_[b]; ++next)
+        uncovered.add(*releases_[queue][next], over_at(*releases_[queue][next]));
+      visit(b, uncovered);
+      uncovered.name(plan_.signals[plan_.batches[b].first_signal].stages, static_cast<Index>(b));
+      covered_[b] = uncovered.first_point().value_or(end_of_batch_[b] + 1);  // a group stands before any user
+    }
+  }
+  Index over_at(const Release& release) const {
+    const auto found = over_at_.find({plan_.program_resource[release.resource], release.queue});
+    return found == over_at_.end() ? kNone : found->second;
+  }
+
   void walk_frame(std::vector<Knowledge>& known, bool emit) {
     for (Knowledge& each : known) each.age();
     std::vector<std::vector<Acquire*>> by_group(plan_.groups.size());
@@ -112,47 +182,21 @@ class Finder {
 
   Clock at_signal(size_t b, const Knowledge& known) const {
     const Batch& batch = plan_.batches[b];
-    const Stages stages = plan_.signals[batch.first_signal].stages;
-    Clock clock = known.gathered([&](Stages waited) { return (waited & stages) != 0 || (stages & stage::all_commands) != 0; });
-    clock[batch.queue] = std::max(clock[batch.queue], covered(b) + 1);
-    clock[queues_ + batch.queue] = last_point_[batch.queue] + 1;  // the frame before ended with a signal of everything
+    Clock clock = known.known_to(plan_.signals[batch.first_signal].stages);
+    if (clock[batch.queue].end < covered_[b]) clock[batch.queue] = {covered_[b], static_cast<Index>(b)};
+    clock[queues_ + batch.queue] = {last_point_[batch.queue] + 1, kNone};  // the frame before ended with a signal of everything
     return clock;
   }
 
-  // The largest point up to the end of batch `b` such that its signal, or an earlier one of the queue, covers all releases before it. Writes become
-  // available only in stages that a signal names.
-  Index covered(size_t b) const {
-    const Batch& batch = plan_.batches[b];
-    Index point = end_of_batch_[b];
-    const std::vector<const Release*>& releases = releases_[batch.queue];
-    size_t next = releases.size();
-    Stages stages = 0;  // of the signals from here on
-    const std::vector<size_t>& signals = batch_of_[batch.queue];
-    for (size_t s = plan_.signals[batch.first_signal].value; s-- > 0;) {
-      stages |= plan_.signals[plan_.batches[signals[s]].first_signal].stages;
-      const Index begin = s == 0 ? 0 : end_of_batch_[signals[s - 1]] + 1;  // releases since the signal before
-      if (stages & stage::all_commands) return point;
-      for (; next > 0 && releases[next - 1]->point >= begin; --next) {
-        const Release& release = *releases[next - 1];
-        if (release.point > end_of_batch_[b]) continue;
-        if (is_over_at(release, b)) continue;
-        if ((release.stages & ~(release.accesses ? stages : with_earlier(stages))) != 0) point = release.point - 1;  // a group stands before any user
-      }
-    }
-    return point;
-  }
-
-  bool is_over_at(const Release& release, size_t b) const {
-    const auto found = over_at_.find({plan_.program_resource[release.resource], release.queue});
-    return found != over_at_.end() && found->second <= b;
-  }
-
   void note(Acquire& acquire, const Knowledge& known) {
-    Clock clock = known.gathered([&](Stages waited) { return (acquire.stages & ~waited) == 0; });
-    clock[acquire.queue] = acquire.point + 1;
-    clock[queues_ + acquire.queue] = last_point_[acquire.queue] + 1;
+    Clock clock = known.known_to(acquire.stages);
+    clock[acquire.queue] = {acquire.point + 1, kNone};
+    clock[queues_ + acquire.queue] = {last_point_[acquire.queue] + 1, kNone};
     acquire.first_clock = static_cast<Index>(plan_.alias_clocks.size());
-    for (const Index point : clock) plan_.alias_clocks.push_back(point == 0 ? kNone : point - 1);
+    for (const Known& each : clock) {
+      plan_.alias_clocks.push_back(each.end == 0 ? kNone : each.end - 1);
+      if (each.batch != kNone) relied_[each.batch] = true;
+    }
   }
 
   PlanData& plan_;
@@ -161,60 +205,32 @@ class Finder {
   std::vector<std::vector<const Release*>> releases_;  // by queue, by point
   std::vector<Index> end_of_batch_, last_point_;       // point by batch, by queue
   std::vector<std::vector<size_t>> batch_of_;          // by queue: the batch of each signal value, from 1
+  std::vector<Index> covered_;                         // by batch: its signal comes after all releases at points below
   std::vector<Clock> signalled_;                       // by batch: what has completed when its signal has
+  std::vector<bool> relied_;                           // by batch
 };
-
-// Of releases on the batch's queue since the signal before.
-Stages unnamed_stages(const PlanData& plan, size_t of) {
-  const uint32_t queue = plan.batches[of].queue;
-  const Stages named = plan.signals[plan.batches[of].first_signal].stages;
-  if (named & stage::all_commands) return 0;
-  Index point = 0, since = 0, end = 0;  // points passed so far; the first since the signal before; that of the end of the batch
-  for (size_t b = 0; b <= of; ++b) {
-    const Batch& batch = plan.batches[b];
-    if (batch.queue != queue) continue;
-    for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s) point += plan.steps[s].kind == StepKind::barriers;
-    end = point++;
-    if (batch.signal_count > 0 && b < of) since = point;
-  }
-  Stages stages = 0;
-  for (const Release& release : plan.releases)
-    if (release.queue == queue && release.point >= since && release.point <= end)
-      stages |= release.accesses ? release.stages & ~named : latest_stages(release.stages & ~with_earlier(named));
-  return stages;
-}
 
 }  // namespace
 
 void find_alias_clocks(PlanData& plan, const OverAt& over_at) {
   plan.alias_clocks.clear();
-  Finder(plan, over_at).run();
+  Finder(plan, over_at).run([](size_t, const Uncovered&) {});
 }
 
 std::vector<Stages> silent_stages(const PlanData& made) {
-  constexpr size_t kMostWork = 1'000'000;  // about a second; signals of larger plans stay as they are
-  if (made.signals.size() * made.steps.size() > kMostWork) return {};
+  // Every signal names what its queue has released, so that clocks count as far as they can ...
   PlanData plan = made;
-  std::vector<Stages> silent(plan.batches.size());
-  for (size_t b = 0; b < plan.batches.size(); ++b)
-    if (plan.batches[b].signal_count > 0) plan.signals[plan.batches[b].first_signal].stages |= silent[b] = unnamed_stages(plan, b);
-  find_alias_clocks(plan);
+  const auto signal_of = [&](size_t b) -> Stages& { return plan.signals[plan.batches[b].first_signal].stages; };
+  plan.alias_clocks.clear();
+  Finder most(plan, {});
+  most.run([&](size_t b, const Uncovered& uncovered) { signal_of(b) |= uncovered.missing(); });
   if (plan.alias_clocks == made.alias_clocks) return {};
-  // What no clock rests on goes again.
-  const std::vector<Index> most = plan.alias_clocks;
-  const auto drop = [&](size_t b, Stages stages) {
-    Stages& signal = plan.signals[plan.batches[b].first_signal].stages;
-    signal &= ~stages;
-    find_alias_clocks(plan);
-    const bool same = plan.alias_clocks == most;
-    if (!same) signal |= stages;
-    return same;
-  };
-  for (size_t b = 0; b < silent.size(); ++b) {
-    if (silent[b] != 0 && drop(b, silent[b])) silent[b] = 0;
-    for (Stages rest = silent[b]; rest; rest &= rest - 1)
-      if (const Stages one = rest & ~(rest - 1); silent[b] != one && drop(b, one)) silent[b] &= ~one;
-  }
+  // ... and then only those that clocks rest on: a release is named by the last signal that can, which does the most others the same service.
+  plan.signals = made.signals, plan.alias_clocks.clear();
+  std::vector<Stages> silent(plan.batches.size());
+  Finder(plan, {}).run([&](size_t b, const Uncovered& uncovered) {
+    if (most.is_relied_on(b)) signal_of(b) |= silent[b] = uncovered.missing();
+  });
   return silent;
 }
 

@@ -198,6 +198,26 @@ TEST(Queues, SignalsNameWhatMemoryNeeds) {
   EXPECT_EQ(apart.plan.signals[apart.plan.batches[0].first_signal].stages & stage::compute_shader, 0u) << "nothing to take over, nothing to name";
 }
 
+// `show` waits for the other queue in its fragment shader. The hand-off to `second` names depth tests, the later of which come after that: it goes on after the wait.
+TEST(Queues, MemoryGoesToStagesAfterAWait) {
+  const FramePlan frame = plan_of(
+      "image drawn : rgba16f 1024x1024\n image blurred : r8 view\n image meant : rgba16f 2048x1024\n image shown : r8 view\n image second : d32f 1024x1024\n"
+      "pass draw : raster { color drawn clear 0  draw host {} }\n"
+      "pass blur : compute queue compute may { read drawn as sampled  write blurred as storage }\n"
+      "pass meanwhile : raster { color meant clear 0  draw host {} }\n"
+      "pass show : raster { read blurred as sampled in fragment  read meant as sampled in fragment  color shown clear 0  draw host {} }\n"
+      "pass again : raster { read shown as sampled in fragment  depth second clear 0.0  draw host {} }\n"
+      "pass last : raster { read second as sampled in fragment  color backbuffer clear 0  draw host {} }\n",
+      kTwo);
+  ASSERT_EQ(pass_named(frame.plan, "blur").queue, 1u);
+  const Plan view = frame.plan.view();
+  const Index second = resource_named(frame.plan, "second");
+  EXPECT_TRUE(alias::Sharing(view).may_share(resource_named(frame.plan, "drawn"), second));
+  EXPECT_EQ(alias::Sharing(view).acquire(second)->stages & stage::fragment_shader, 0u);
+  for (const Wait& wait : frame.plan.waits) EXPECT_EQ(wait.stages & (stage::early_fragment_tests | stage::late_fragment_tests), 0u);
+  EXPECT_EQ(frame.unproved, 0u);
+}
+
 TEST(PassCost, MeasuredTimesReplaceEstimates) {
   const FramePlan estimated = plan_of(kOverlap, {.queues = kTwo.queues});
   EXPECT_GT(estimated.overlap.serial, 5 * kLaunchNs);
