@@ -8,10 +8,14 @@
 namespace rg::verify {
 namespace {
 
+const SignalReach* last_signal(const Reach& reach, uint32_t queue) {
+  const auto last = std::find_if(reach.signals.rbegin(), reach.signals.rend(), [&](const SignalReach& s) { return s.queue == queue; });
+  return last == reach.signals.rend() ? nullptr : &*last;
+}
+
 // What comes after the record now has one more signal. The proof of a number is that of any signal up to it.
 void add_signal(const History& history, Reach& reach, uint32_t queue, int64_t number, Proof proof) {
-  const auto last = std::find_if(reach.signals.rbegin(), reach.signals.rend(), [&](const SignalReach& s) { return s.queue == queue; });
-  if (last != reach.signals.rend()) {
+  if (const SignalReach* last = last_signal(reach, queue)) {
     if (!history.proofs) return;
     intersect(proof, last->proof);
     if (proof == last->proof) return;
@@ -51,8 +55,18 @@ void wait_plainly(const History& history, const Executed& executed, const Reach&
   }
 }
 
-bool is_signalled(const Reach& reach, uint32_t queue) {
-  return std::any_of(reach.signals.begin(), reach.signals.end(), [&](const SignalReach& s) { return s.queue == queue; });
+// Another signal of the queue has no smaller proof. `begins`: one that does not come after what is on the queue already.
+bool has_signalled(const History& history, const Reach& reach, uint32_t queue, bool begins) {
+  const SignalReach* last = last_signal(reach, queue);
+  return last && (!history.proofs || last->proof.empty() || (!begins && last->proof == reach.root(queue)));
+}
+
+// Nor has any wait of the group: what is settled on its queue rests on nothing that all signals could do without.
+bool rests_on_signals(const History& history, const GroupNode& group, const Reach& reach) {
+  return std::all_of(group.scopes.begin(), group.scopes.end(), [&](uint32_t id) {
+    const SignalReach* last = last_signal(reach, history.model.scopes[id].other);
+    return !last || contains(last->proof, reach.root(group.queue));
+  });
 }
 
 // How a wait comes after the record; it may name a later signal than it needs.
@@ -82,9 +96,9 @@ bool wait(const History& history, const Executed& executed, const Reach& reach, 
     if (source.proof) sources.emplace_back(id, std::move(*source.proof));
   }
   for (const auto& [id, source] : sources)
-    if (!contains(source, reach.root)) forget_root(record);
+    if (!contains(source, reach.root(group.queue))) forget_root(record, group.queue);
   for (auto& [id, source] : sources) {
-    subtract(source, reach.root);
+    subtract(source, reach.root(group.queue));
     then(id, Alternatives{std::move(source)});
   }
   return !sources.empty();
@@ -96,10 +110,11 @@ void signal(const History& history, const Executed& executed, ReadFate& fate) {
   for (const uint32_t id : group.scopes) {
     const Scope& scope = history.model.scopes[id];
     if (!((fate.reach.stages(group.queue) | own) & scope.src_earlier)) continue;
+    if (has_signalled(history, fate.reach, group.queue, (own & scope.src_earlier) != 0)) continue;
     Alternatives source;
     if (history.proofs) {
       add_chained_sources(scope, id, fate.reach, source);
-      if (source.proof) source.proof = unite(*source.proof, fate.reach.root);
+      if (source.proof) source.proof = unite(*source.proof, fate.reach.root(group.queue));
       if (own) add_meeting_sources(scope, id, fate.stage, {}, source);
       source.proof = unite(*source.proof, {atom_of(id, AtomField::whole)});
     }
@@ -116,11 +131,12 @@ void signal(const History& history, const Executed& executed, WriteRecord& write
     const bool transition = write.scope != kNone && write.queue == group.queue && (scope.raw_src & stage::all_commands);
     const bool chained = write.available && (write.reach.stages(group.queue) & scope.src_earlier);
     if (!first && !transition && !chained) continue;
+    if (write.available && has_signalled(history, write.reach, group.queue, first || transition)) continue;
     write.available = true;
     Alternatives source;
     if (!history.proofs) source.add({});
     if (history.proofs && chained) add_chained_sources(scope, id, write.reach, source);
-    if (source.proof) source.proof = unite(*source.proof, write.reach.root);
+    if (source.proof) source.proof = unite(*source.proof, write.reach.root(group.queue));
     if (history.proofs && first) source.add(availability_proof(scope, id, write));
     if (history.proofs && transition) source.add({atom_of(write.scope, AtomField::whole)});
     add_signal(history, write.reach, group.queue, number_of(history.model, scope, executed.frame),
@@ -130,20 +146,22 @@ void signal(const History& history, const Executed& executed, WriteRecord& write
 
 // Nothing that the waits of the group could add, and nothing that still depends on single atoms.
 bool is_seen_by_all(const History& history, const GroupNode& group, const WriteRecord& write) {
-  if (!write.available || !write.proofs.empty() || (group.dst_later & ~write.reach.queues.get(group.queue).settled) != 0) return false;
-  for (const uint32_t id : group.scopes)
-    for (uint32_t d = 0; d < kStageCount; ++d)
-      if ((history.model.scopes[id].dst & stage_bit(d)) && (supported(d) & ~write.visible_to(group.queue, d))) return false;
-  return true;
+  if (!write.available || (group.dst_later & ~write.reach.queues.get(group.queue).settled) != 0) return false;
+  StageSet stages = 0;
+  for (const uint32_t id : group.scopes) stages |= history.model.scopes[id].dst;
+  for (uint32_t d = 0; d < kStageCount; ++d)
+    if ((stages & stage_bit(d)) && (supported(d) & ~write.visible_to(group.queue, d))) return false;
+  const auto is_open = [&](const VisibleTo& v) { return v.site / kStageCount == group.queue && (stages & stage_bit(v.site % kStageCount)); };
+  return std::none_of(write.proofs.begin(), write.proofs.end(), is_open) && rests_on_signals(history, group, write.reach);
 }
 
 }  // namespace
 
 void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate) {
   const GroupNode& group = history.model.groups[executed.group];
-  if (!history.proofs && group.kind == GroupKind::signals && is_signalled(fate.reach, group.queue)) return;
   if (group.kind == GroupKind::signals) return signal(history, executed, fate);
-  if (fate.reach.signals.empty() || (group.dst_later & ~fate.reach.queues.get(group.queue).settled) == 0) return;
+  if (fate.reach.signals.empty()) return;
+  if ((group.dst_later & ~fate.reach.queues.get(group.queue).settled) == 0 && rests_on_signals(history, group, fate.reach)) return;
   Updates updates;
   if (!history.proofs) {
     wait_plainly(history, executed, fate.reach, updates);
@@ -154,11 +172,11 @@ void apply_semaphores(const History& history, const Executed& executed, ReadFate
     add_reach(scope, id, *source.proof, fate.reach.queues.get(group.queue).settled, updates.new_reach);
   });
   commit(history, updates, fate.reach);
+  grow_root(fate.reach, group.queue);
 }
 
 void apply_semaphores(const History& history, const Executed& executed, WriteRecord& write) {
   const GroupNode& group = history.model.groups[executed.group];
-  if (!history.proofs && group.kind == GroupKind::signals && write.available && is_signalled(write.reach, group.queue)) return;
   if (group.kind == GroupKind::signals) return signal(history, executed, write);
   if (write.reach.signals.empty()) return;
   Updates updates;
@@ -170,6 +188,7 @@ void apply_semaphores(const History& history, const Executed& executed, WriteRec
   updates.available = wait(history, executed, write.reach, write, updates,
                            [&](uint32_t id, const Alternatives& source) { see(history, id, write, source, updates); });
   commit(history, updates, write);
+  grow_root(write, group.queue);
 }
 
 }  // namespace rg::verify

@@ -40,10 +40,10 @@ bool concerns(const GroupNode& group, const Reach& reach, StageSet own) {
 bool is_rooted(const History& history, const std::vector<uint32_t>& covering, WriteRecord& write) {
   const auto makes = [&](uint32_t id) { return makes_available(history.model.scopes[id], write); };
   const auto count = std::count_if(covering.begin(), covering.end(), makes);
-  if (write.available && count > 0) forget_root(write);
+  if (write.available && count > 0) forget_root(write, write.queue);
   if (write.available || count != 1) return false;
   const uint32_t id = *std::find_if(covering.begin(), covering.end(), makes);
-  write.reach.root = unite(availability_proof(history.model.scopes[id], id, write), {atom_of(id, AtomField::whole)});
+  write.reach.queues.at(write.queue).root = unite(availability_proof(history.model.scopes[id], id, write), {atom_of(id, AtomField::whole)});
   return true;
 }
 
@@ -69,7 +69,7 @@ void apply(const History& history, const GroupNode& group, const std::vector<uin
     for (const ExecutionClass& execution : group.classes)
       if (!execution.sole || !is_local(local, execution.scope)) chain(history, execution, write.reach, 0, updates);
   commit(history, updates, write);
-  if (rooted) grow_root(write);
+  if (rooted) grow_root(write, group.queue);
 }
 
 // ---- reads ------------------------------------------------------------------------------------------------------
@@ -80,15 +80,13 @@ StageSet own_stage(const GroupNode& group, const ReadFate& read) { return read.q
 bool is_rooted(const History& history, const GroupNode& group, StageSet own, ReadFate& read) {
   if (!(own & group.src_earlier)) return false;
   const auto waits = [&](const ExecutionClass& execution) { return (history.model.scopes[execution.scope].src_earlier & own) != 0; };
-  forget_root(read.reach);
-  bool fresh = read.reach.signals.empty();
-  read.reach.queues.each([&](uint32_t, const QueueReach& on) { fresh = fresh && on.stages == 0; });
-  if (!fresh || std::count_if(group.classes.begin(), group.classes.end(), waits) != 1) return false;
+  forget_root(read.reach, group.queue);
+  if (read.reach.stages(group.queue) != 0 || std::count_if(group.classes.begin(), group.classes.end(), waits) != 1) return false;
   const ExecutionClass& only = *std::find_if(group.classes.begin(), group.classes.end(), waits);
   if (!only.sole) return false;
   Alternatives sources;
   add_meeting_sources(history.model.scopes[only.scope], only.scope, read.stage, kNoProof, sources);
-  read.reach.root = unite(*sources.proof, {atom_of(only.scope, AtomField::whole)});
+  read.reach.queues.at(group.queue).root = unite(*sources.proof, {atom_of(only.scope, AtomField::whole)});
   return true;
 }
 
@@ -100,13 +98,12 @@ void apply(const History& history, const GroupNode& group, ReadFate& read) {
   updates.queue = group.queue;
   for (const ExecutionClass& execution : group.classes) chain(history, execution, read.reach, own, updates);
   commit(history, updates, read.reach);
-  if (rooted) grow_root(read.reach);
+  if (rooted) grow_root(read.reach, group.queue);
 }
 
 bool is_settled(const History& history, const Reach& reach) {
-  if (!reach.root.empty()) return false;
   for (uint32_t q = 0; q < history.model.queue_count; ++q)
-    if (reach.queues.get(q).settled != kAllStages) return false;
+    if (reach.queues.get(q).settled != kAllStages || !reach.root(q).empty()) return false;
   return true;
 }
 
@@ -124,7 +121,7 @@ bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Pr
   if (!((read.reach().stages(scope.queue) | own) & scope.src_earlier)) return false;
   Alternatives alternatives;
   add_chained_sources(scope, scope_id, read.reach(), alternatives);
-  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, read.reach().root);
+  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, read.reach().root(scope.queue));
   if (own) add_meeting_sources(scope, scope_id, read.stage, kNoProof, alternatives);
   proof = std::move(*alternatives.proof);
   return true;
@@ -133,7 +130,7 @@ bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Pr
 bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, Proof& proof) {
   Alternatives alternatives;
   if (write.available) add_chained_sources(scope, scope_id, write.reach, alternatives);
-  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, write.reach.root);
+  if (alternatives.proof) alternatives.proof = unite(*alternatives.proof, write.reach.root(scope.queue));
   if (makes_available(scope, write)) alternatives.add(availability_proof(scope, scope_id, write));
   if (!alternatives.proof) return false;
   proof = std::move(*alternatives.proof);
@@ -207,8 +204,8 @@ WriteRecord transition_record(const History& history, const Scope& scope, uint32
   }
   commit(history, updates, write);
   if (history.proofs) {
-    write.reach.root = {atom_of(scope_id, AtomField::whole)};
-    grow_root(write);
+    write.reach.queues.at(scope.queue).root = {atom_of(scope_id, AtomField::whole)};
+    grow_root(write, scope.queue);
   }
   return write;
 }

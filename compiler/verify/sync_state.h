@@ -29,20 +29,21 @@ constexpr Site site_of(uint32_t queue, uint32_t stage) { return queue * kStageCo
 struct QueueReach {
   StageSet stages = 0;
   StageSet settled = 0;  // needs no atom beyond the root's
+  Proof root;            // what every proof on the queue also uses: the one barrier or wait with which everything began there, say
 };
 // A signal after something; so are all later ones of its queue.
 struct SignalReach {
   uint32_t queue = 0;
   int64_t number = 0;  // counted through all frames, see number_of
-  Proof proof;         // of all signals up to this one; contains the root's share
+  Proof proof;         // of all signals up to this one, with the share of its queue's root
 };
 struct Reach {
   ByQueue<QueueReach> queues;
   std::vector<SignalReach> signals;            // by queue ascending numbers, each with a smaller proof than the one before
-  Proof root;                                  // what every proof also uses: the one barrier with which everything began
-  std::vector<std::pair<Site, Proof>> proofs;  // of stages that are not settled
+  std::vector<std::pair<Site, Proof>> proofs;  // of stages that are not settled, beside the root
   explicit Reach(uint32_t queue = 0) : queues(queue) {}
   StageSet stages(uint32_t queue) const { return queues.get(queue).stages; }
+  const Proof& root(uint32_t queue) const { return queues.get(queue).root; }
 };
 
 // Reads in one stage between the same two groups of their queue share their fate.

@@ -1,6 +1,8 @@
 #include "compiler/verify/sync_update.h"
 
 #include <algorithm>
+#include <bit>
+#include <iterator>
 
 namespace rg::verify {
 namespace {
@@ -50,23 +52,51 @@ void merge(WriteRecord& write, uint32_t queue, const NewVisible& next) {
   if (at->proof.empty()) write.proofs.erase(at);
 }
 
+uint32_t queue_of(Site site) { return site / kStageCount; }
+
 // What the root already says.
-void drop_root(Reach& reach) {
-  for (auto& [site, proof] : reach.proofs) subtract(proof, reach.root);
-  for (const auto& [site, proof] : reach.proofs)
-    if (proof.empty()) reach.queues.at(site / kStageCount).settled |= stage_bit(site % kStageCount);
-  std::erase_if(reach.proofs, [](const auto& entry) { return entry.second.empty(); });
+void drop_root(Reach& reach, uint32_t queue) {
+  QueueReach& on = reach.queues.at(queue);
+  std::erase_if(reach.proofs, [&](auto& entry) {
+    auto& [site, proof] = entry;
+    if (queue_of(site) != queue) return false;
+    subtract(proof, on.root);
+    if (proof.empty()) on.settled |= stage_bit(site % kStageCount);
+    return proof.empty();
+  });
 }
-void drop_root(WriteRecord& write) {
-  drop_root(write.reach);
-  for (VisibleTo& v : write.proofs) subtract(v.proof, write.reach.root);
-  std::erase_if(write.proofs, [](const VisibleTo& v) { return v.proof.empty(); });
+void drop_root(WriteRecord& write, uint32_t queue) {
+  drop_root(write.reach, queue);
+  std::erase_if(write.proofs, [&](VisibleTo& v) {
+    if (queue_of(v.site) != queue) return false;
+    subtract(v.proof, write.reach.root(queue));
+    return v.proof.empty();
+  });
+}
+
+// Something is settled on the queue, so that its proofs have nothing in common beyond the root.
+bool is_settled_in_part(const WriteRecord& write, uint32_t queue) {
+  size_t open = 0, all = 0;
+  for (const VisibleTo& v : write.proofs) open += queue_of(v.site) == queue;
+  for (uint32_t s = 0; s < kStageCount; ++s) all += static_cast<size_t>(std::popcount(write.visible_to(queue, s)));
+  return open != all;
+}
+
+void add_proofs(const Reach& reach, uint32_t queue, Alternatives& common) {
+  for (const auto& [site, proof] : reach.proofs)
+    if (queue_of(site) == queue) common.add(proof);
+}
+
+void extend_root(Reach& reach, uint32_t queue, const Alternatives& common) {
+  if (common.proof && !common.proof->empty()) reach.queues.at(queue).root = unite(reach.root(queue), *common.proof);
 }
 
 }  // namespace
 
-Proof proof_of_reach(const Reach& reach, Site site) { return unite(reach.root, relative_proof(reach, site)); }
-Proof proof_of_visible(const WriteRecord& write, Site site, uint32_t access) { return unite(write.reach.root, relative_proof(write, site, access)); }
+Proof proof_of_reach(const Reach& reach, Site site) { return unite(reach.root(queue_of(site)), relative_proof(reach, site)); }
+Proof proof_of_visible(const WriteRecord& write, Site site, uint32_t access) {
+  return unite(write.reach.root(queue_of(site)), relative_proof(write, site, access));
+}
 
 Proof stage_atom(uint32_t scope, AtomField field, Stages raw, uint32_t stage) {
   const uint32_t bit = raw_bit_of_stage(raw, stage);
@@ -151,44 +181,44 @@ void commit(const History& history, const Updates& updates, WriteRecord& write) 
   for (const NewVisible& next : updates.new_visible) merge(write, updates.queue, next);
 }
 
-void forget_root(Reach& reach) {
-  if (reach.root.empty()) return;
-  for (auto& [site, proof] : reach.proofs) proof = unite(proof, reach.root);
-  std::vector<uint32_t> queues;
-  reach.queues.each([&](uint32_t queue, const QueueReach& on) {
-    queues.push_back(queue);
-    for (uint32_t s = 0; s < kStageCount; ++s)
-      if (on.settled & stage_bit(s)) reach.proofs.emplace_back(site_of(queue, s), reach.root);
-  });
-  for (const uint32_t queue : queues) reach.queues.at(queue).settled = 0;
-  reach.root.clear();
+void forget_root(Reach& reach, uint32_t queue) {
+  QueueReach& on = reach.queues.at(queue);
+  if (on.root.empty()) return;
+  for (auto& [site, proof] : reach.proofs)
+    if (queue_of(site) == queue) proof = unite(proof, on.root);
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    if (on.settled & stage_bit(s)) reach.proofs.emplace_back(site_of(queue, s), on.root);
+  on.settled = 0;
+  on.root.clear();
 }
 
-void forget_root(WriteRecord& write) {
-  if (write.reach.root.empty()) return;
+void forget_root(WriteRecord& write, uint32_t queue) {
+  if (write.reach.root(queue).empty()) return;
   std::vector<VisibleTo> proofs;
-  write.visible.each([&](uint32_t queue, const Visible& visible) {
-    for (uint32_t s = 0; s < kStageCount; ++s)
-      for (uint32_t a = 0; a < kAccessCount; ++a)
-        if (visible.to[s] & access_bit(a)) proofs.push_back({site_of(queue, s), a, proof_of_visible(write, site_of(queue, s), a)});
-  });
-  write.proofs = std::move(proofs);
-  forget_root(write.reach);
+  for (uint32_t s = 0; s < kStageCount; ++s)
+    for (uint32_t a = 0; a < kAccessCount; ++a)
+      if (write.visible_to(queue, s) & access_bit(a)) proofs.push_back({site_of(queue, s), a, proof_of_visible(write, site_of(queue, s), a)});
+  std::erase_if(write.proofs, [&](const VisibleTo& v) { return queue_of(v.site) == queue; });
+  write.proofs.insert(write.proofs.end(), std::make_move_iterator(proofs.begin()), std::make_move_iterator(proofs.end()));
+  forget_root(write.reach, queue);
 }
 
-void grow_root(Reach& reach) {
+void grow_root(Reach& reach, uint32_t queue) {
+  if (reach.queues.get(queue).settled != 0) return;
   Alternatives common;
-  for (const auto& [site, proof] : reach.proofs) common.add(proof);
-  if (common.proof) reach.root = unite(reach.root, *common.proof);
-  drop_root(reach);
+  add_proofs(reach, queue, common);
+  extend_root(reach, queue, common);
+  drop_root(reach, queue);
 }
 
-void grow_root(WriteRecord& write) {
+void grow_root(WriteRecord& write, uint32_t queue) {
+  if (write.reach.queues.get(queue).settled != 0 || is_settled_in_part(write, queue)) return;
   Alternatives common;
-  for (const auto& [site, proof] : write.reach.proofs) common.add(proof);
-  for (const VisibleTo& v : write.proofs) common.add(v.proof);
-  if (common.proof) write.reach.root = unite(write.reach.root, *common.proof);
-  drop_root(write);
+  add_proofs(write.reach, queue, common);
+  for (const VisibleTo& v : write.proofs)
+    if (queue_of(v.site) == queue) common.add(v.proof);
+  extend_root(write.reach, queue, common);
+  drop_root(write, queue);
 }
 
 }  // namespace rg::verify

@@ -44,12 +44,12 @@ void see(const History& history, uint32_t scope_id, const WriteRecord& write, co
 void commit(const History& history, const Updates& updates, Reach& reach);
 void commit(const History& history, const Updates& updates, WriteRecord& write);
 
-// Proofs no longer share a root: there is a second beginning.
-void forget_root(Reach& reach);
-void forget_root(WriteRecord& write);
-// At the beginning all proofs go through the one barrier: what they have in common stays in all that follow.
-void grow_root(Reach& reach);
-void grow_root(WriteRecord& write);
+// Proofs on the queue no longer share a root: there is a second beginning.
+void forget_root(Reach& reach, uint32_t queue);
+void forget_root(WriteRecord& write, uint32_t queue);
+// What all proofs on the queue have in common stays in all that follow.
+void grow_root(Reach& reach, uint32_t queue);
+void grow_root(WriteRecord& write, uint32_t queue);
 
 // A signal or wait, see semaphores.cpp.
 void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate);
