@@ -8,7 +8,8 @@
 //     +---+---+---+---+--> time
 //
 // Method, stage by stage, each ending it all at the lower bound:
-//   1. decode "lowest offset first": always place the item whose lowest legal offset is smallest, ties by a static order; two orders
+//   1. decode "lowest offset first": always place the item whose lowest legal offset is smallest, ties by a static order; two orders,
+//      a third where conflicts are given
 //   2. repair by ejection (packing_ejection.h) at the bound and at capacities between it and the best, for three quarters of the effort
 //   3. exact search (packing_search.h) at such capacities for the rest, where effort is large enough to set it up
 // Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
@@ -127,8 +128,9 @@ inline constexpr uint64_t kFirstShare = 1000;  // an item: enough for most
 
 class Packer {
  public:
-  Packer(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t lower_bound, uint64_t effort)
-      : items_(items), neighbours_(neighbours(items.size(), conflicts)), bound_(lower_bound), effort_(effort) {
+  // `by_lives`: the conflicts are those of items whose lives meet.
+  Packer(std::span<const Item> items, const std::vector<Conflict>& conflicts, bool by_lives, uint64_t lower_bound, uint64_t effort)
+      : items_(items), neighbours_(neighbours(items.size(), conflicts)), by_lives_(by_lives), bound_(lower_bound), effort_(effort) {
     best_.lower_bound_bytes = lower_bound;
     best_.heap_bytes = std::numeric_limits<uint64_t>::max();
   }
@@ -139,6 +141,10 @@ class Packer {
     const auto [T, Z, W, A] = measures_of(items_);
     decode_lowest_first(sorted(n, {&T, &A, &W}));
     if (!done()) decode_lowest_first(sorted(n, {&T, &W, &A}));
+    if (!done() && !by_lives_) {  // what load is to lives
+      const std::vector<uint64_t> met = bytes_met();
+      decode_lowest_first(sorted(n, {&met, &A}));
+    }
     if (!done()) repair();
     return std::move(best_);
   }
@@ -148,6 +154,13 @@ class Packer {
 
   void keep(const std::vector<uint64_t>& offsets, uint64_t heap) {
     if (heap < best_.heap_bytes) best_.offsets = offsets, best_.heap_bytes = heap;
+  }
+
+  std::vector<uint64_t> bytes_met() const {
+    std::vector<uint64_t> met(items_.size());
+    for (uint32_t i = 0; i < items_.size(); ++i)
+      for (const uint32_t other : neighbours_.of(i)) met[i] += items_[other].bytes;
+    return met;
   }
 
   // Of all unplaced items, the one that can lie lowest; gives up where it cannot beat the best.
@@ -203,6 +216,7 @@ class Packer {
 
   std::span<const Item> items_;
   Neighbours neighbours_;
+  bool by_lives_;
   uint64_t bound_, effort_;
   Placement best_;
   Order rank_;
@@ -285,7 +299,7 @@ inline Placement pack(std::span<const Item> items, uint64_t effort = kDefaultEff
   if (!listed) return detail::pack_crowd(items);
   const bool searched = items.size() <= detail::kMostSearched && effort >= detail::kLeastSearchEffort * items.size();
   const uint64_t repairs = searched ? effort / 4 * 3 : effort;
-  Placement best = detail::Packer(items, pairs, lower_bound(items), repairs).run();
+  Placement best = detail::Packer(items, pairs, true, lower_bound(items), repairs).run();
   if (searched) detail::search_below(items, best, effort - repairs);
   return best;
 }
@@ -307,7 +321,7 @@ inline Fit fit(std::span<const Item> items, uint64_t capacity, uint64_t effort) 
 // Items conflict where `conflicts` says so, whatever their lives, which then serve as hints. Every pair whose lives meet should be among them:
 // the lower bound assumes it. `known_bound`: what conflicts say beyond that; no less than any item.
 inline Placement pack(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t effort = kDefaultEffort, uint64_t known_bound = 0) {
-  return detail::Packer(items, conflicts, std::max(lower_bound(items), known_bound), effort).run();
+  return detail::Packer(items, conflicts, false, std::max(lower_bound(items), known_bound), effort).run();
 }
 
 }  // namespace rg::packing
