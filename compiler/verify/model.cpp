@@ -203,6 +203,17 @@ void add_batch(Model& model, const Extents& extents, uint32_t index) {
   add_signals(model, index, batch), add_step(false, model.groups.size() - 1);
 }
 
+void number_alike(Model& model) {
+  using Row = std::tuple<uint32_t, Stages, Stages>;
+  std::map<std::tuple<GroupKind, uint32_t, std::vector<Row>>, uint32_t> numbers;
+  for (GroupNode& group : model.groups) {
+    if (group.kind == GroupKind::barriers) continue;
+    std::vector<Row> rows;
+    for (const uint32_t id : group.scopes) rows.emplace_back(model.scopes[id].other, model.scopes[id].raw_src, model.scopes[id].raw_dst);
+    group.alike = numbers.try_emplace({group.kind, group.queue, std::move(rows)}, static_cast<uint32_t>(numbers.size())).first->second;
+  }
+}
+
 // Memory changes hands in the group of the new owner's acquire. Images are rewritten by their transition; buffers are noted here.
 void note_hand_overs(Model& model) {
   const Plan& plan = model.input->plan;
@@ -285,6 +296,7 @@ Model make_model(const Input& input, const std::vector<int64_t>& extents, std::v
   for (uint32_t i = 0; i < input.plan.passes.size(); ++i) add_pass(model, extents, i, report);
   for (uint32_t i = 0; i < input.plan.batches.size(); ++i) add_batch(model, extents, i);
   note_hand_overs(model);
+  number_alike(model);
   number_renderings(model);
   number_orders(model);
   model.entry = make_boundaries(model, extents, input.plan.entry);

@@ -85,6 +85,7 @@ struct GroupNode {
   StageSet src_earlier = 0, dst_later = 0;  // of all
   std::vector<uint32_t> memory;             // scopes of kind memory
   std::vector<uint32_t> handed_over;        // plan's acquires of buffers that a pair lets take over memory here
+  uint32_t alike = kNone;                   // signals and waits: a number for those of the queue with the same stages and queues, whatever they count to
 };
 
 struct StepNode {

@@ -21,6 +21,11 @@ void add_signal(const History& history, Reach& reach, uint32_t queue, int64_t nu
     if (proof == last->proof) return;
   }
   reach.signals.push_back({queue, number, std::move(proof)});
+  reach.quiet = 0;
+}
+
+void become_quiet(Reach& reach, const GroupNode& group) {
+  if (group.alike < 64) reach.quiet |= uint64_t{1} << group.alike;
 }
 
 const Proof* signalled_by(const Reach& reach, uint32_t queue, int64_t number) {
@@ -107,10 +112,12 @@ bool wait(const History& history, const Executed& executed, const Reach& reach, 
 void signal(const History& history, const Executed& executed, ReadFate& fate) {
   const GroupNode& group = history.model.groups[executed.group];
   const StageSet own = fate.queue == group.queue ? stage_bit(fate.stage) : 0;
+  bool quiet = true;
   for (const uint32_t id : group.scopes) {
     const Scope& scope = history.model.scopes[id];
-    if (!((fate.reach.stages(group.queue) | own) & scope.src_earlier)) continue;
     if (has_signalled(history, fate.reach, group.queue, (own & scope.src_earlier) != 0)) continue;
+    quiet = false;
+    if (!((fate.reach.stages(group.queue) | own) & scope.src_earlier)) continue;
     Alternatives source;
     if (history.proofs) {
       add_chained_sources(scope, id, fate.reach, source);
@@ -120,18 +127,21 @@ void signal(const History& history, const Executed& executed, ReadFate& fate) {
     }
     add_signal(history, fate.reach, group.queue, number_of(history.model, scope, executed.frame), source.proof.value_or(Proof{}));
   }
+  if (quiet) become_quiet(fate.reach, group);
 }
 
 void signal(const History& history, const Executed& executed, WriteRecord& write) {
   const GroupNode& group = history.model.groups[executed.group];
+  bool quiet = true;
   for (const uint32_t id : group.scopes) {
     const Scope& scope = history.model.scopes[id];
     const bool first = makes_available(scope, write);
     // The transition of a barrier that leads nowhere belongs to no stage; only all commands hold it.
     const bool transition = write.scope != kNone && write.queue == group.queue && (scope.raw_src & stage::all_commands);
+    if (write.available && has_signalled(history, write.reach, group.queue, first || transition)) continue;
+    quiet = false;
     const bool chained = write.available && (write.reach.stages(group.queue) & scope.src_earlier);
     if (!first && !transition && !chained) continue;
-    if (write.available && has_signalled(history, write.reach, group.queue, first || transition)) continue;
     write.available = true;
     Alternatives source;
     if (!history.proofs) source.add({});
@@ -142,6 +152,7 @@ void signal(const History& history, const Executed& executed, WriteRecord& write
     add_signal(history, write.reach, group.queue, number_of(history.model, scope, executed.frame),
                unite(*source.proof, {atom_of(id, AtomField::whole)}));
   }
+  if (quiet) become_quiet(write.reach, group);
 }
 
 // Nothing that the waits of the group could add, and nothing that still depends on single atoms.
@@ -161,7 +172,8 @@ void apply_semaphores(const History& history, const Executed& executed, ReadFate
   const GroupNode& group = history.model.groups[executed.group];
   if (group.kind == GroupKind::signals) return signal(history, executed, fate);
   if (fate.reach.signals.empty()) return;
-  if ((group.dst_later & ~fate.reach.queues.get(group.queue).settled) == 0 && rests_on_signals(history, group, fate.reach)) return;
+  if ((group.dst_later & ~fate.reach.queues.get(group.queue).settled) == 0 && rests_on_signals(history, group, fate.reach))
+    return become_quiet(fate.reach, group);
   Updates updates;
   if (!history.proofs) {
     wait_plainly(history, executed, fate.reach, updates);
@@ -180,7 +192,7 @@ void apply_semaphores(const History& history, const Executed& executed, WriteRec
   if (group.kind == GroupKind::signals) return signal(history, executed, write);
   if (write.reach.signals.empty()) return;
   Updates updates;
-  if (is_seen_by_all(history, group, write)) return;
+  if (is_seen_by_all(history, group, write)) return become_quiet(write.reach, group);
   if (!history.proofs) {
     wait_plainly(history, executed, write.reach, updates);
     return commit(history, updates, write);

@@ -43,7 +43,7 @@ bool is_rooted(const History& history, const std::vector<uint32_t>& covering, Wr
   if (write.available && count > 0) forget_root(write, write.queue);
   if (write.available || count != 1) return false;
   const uint32_t id = *std::find_if(covering.begin(), covering.end(), makes);
-  write.reach.queues.at(write.queue).root = unite(availability_proof(history.model.scopes[id], id, write), {atom_of(id, AtomField::whole)});
+  set_root(write.reach, write.queue, unite(availability_proof(history.model.scopes[id], id, write), {atom_of(id, AtomField::whole)}));
   return true;
 }
 
@@ -86,7 +86,7 @@ bool is_rooted(const History& history, const GroupNode& group, StageSet own, Rea
   if (!only.sole) return false;
   Alternatives sources;
   add_meeting_sources(history.model.scopes[only.scope], only.scope, read.stage, kNoProof, sources);
-  read.reach.queues.at(group.queue).root = unite(*sources.proof, {atom_of(only.scope, AtomField::whole)});
+  set_root(read.reach, group.queue, unite(*sources.proof, {atom_of(only.scope, AtomField::whole)}));
   return true;
 }
 
@@ -147,7 +147,7 @@ void advance(const History& history, ReadFate& fate) {
     const GroupNode& group = history.model.groups[executed.group];
     if (group.kind == GroupKind::barriers)
       apply(history, group, fate);
-    else
+    else if (!is_quiet(fate.reach, group))
       apply_semaphores(history, executed, fate);
   }
 }
@@ -157,7 +157,7 @@ void advance(const History& history, WriteRecord& write) {
     const Executed& executed = history.executed[write.seen];
     const GroupNode& group = history.model.groups[executed.group];
     if (group.kind != GroupKind::barriers) {
-      apply_semaphores(history, executed, write);
+      if (!is_quiet(write.reach, group)) apply_semaphores(history, executed, write);
       continue;
     }
     const bool chained = write.available && concerns(group, write.reach, 0);
@@ -204,7 +204,7 @@ WriteRecord transition_record(const History& history, const Scope& scope, uint32
   }
   commit(history, updates, write);
   if (history.proofs) {
-    write.reach.queues.at(scope.queue).root = {atom_of(scope_id, AtomField::whole)};
+    set_root(write.reach, scope.queue, {atom_of(scope_id, AtomField::whole)});
     grow_root(write, scope.queue);
   }
   return write;

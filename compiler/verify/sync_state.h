@@ -41,6 +41,7 @@ struct Reach {
   ByQueue<QueueReach> queues;
   std::vector<SignalReach> signals;            // by queue ascending numbers, each with a smaller proof than the one before
   std::vector<std::pair<Site, Proof>> proofs;  // of stages that are not settled, beside the root
+  uint64_t quiet = 0;                          // by GroupNode::alike: signals and waits that say no more
   explicit Reach(uint32_t queue = 0) : queues(queue) {}
   StageSet stages(uint32_t queue) const { return queues.get(queue).stages; }
   const Proof& root(uint32_t queue) const { return queues.get(queue).root; }

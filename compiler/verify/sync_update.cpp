@@ -88,7 +88,7 @@ void add_proofs(const Reach& reach, uint32_t queue, Alternatives& common) {
 }
 
 void extend_root(Reach& reach, uint32_t queue, const Alternatives& common) {
-  if (common.proof && !common.proof->empty()) reach.queues.at(queue).root = unite(reach.root(queue), *common.proof);
+  if (common.proof && !common.proof->empty()) set_root(reach, queue, unite(reach.root(queue), *common.proof));
 }
 
 }  // namespace
@@ -181,6 +181,11 @@ void commit(const History& history, const Updates& updates, WriteRecord& write) 
   for (const NewVisible& next : updates.new_visible) merge(write, updates.queue, next);
 }
 
+void set_root(Reach& reach, uint32_t queue, Proof root) {
+  reach.queues.at(queue).root = std::move(root);
+  reach.quiet = 0;
+}
+
 void forget_root(Reach& reach, uint32_t queue) {
   QueueReach& on = reach.queues.at(queue);
   if (on.root.empty()) return;
@@ -189,7 +194,7 @@ void forget_root(Reach& reach, uint32_t queue) {
   for (uint32_t s = 0; s < kStageCount; ++s)
     if (on.settled & stage_bit(s)) reach.proofs.emplace_back(site_of(queue, s), on.root);
   on.settled = 0;
-  on.root.clear();
+  set_root(reach, queue, {});
 }
 
 void forget_root(WriteRecord& write, uint32_t queue) {

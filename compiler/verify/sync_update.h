@@ -51,6 +51,12 @@ void forget_root(WriteRecord& write, uint32_t queue);
 void grow_root(Reach& reach, uint32_t queue);
 void grow_root(WriteRecord& write, uint32_t queue);
 
+// Its proofs on the queue all begin there.
+void set_root(Reach& reach, uint32_t queue, Proof root);
+
+// Neither another signal nor another wait of this kind says more, until the proofs of the record change where it looks.
+inline bool is_quiet(const Reach& reach, const GroupNode& group) { return group.alike < 64 && (reach.quiet >> group.alike & 1); }
+
 // A signal or wait, see semaphores.cpp.
 void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate);
 void apply_semaphores(const History& history, const Executed& executed, WriteRecord& write);
