@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
 namespace rg::verify {
 namespace {
@@ -64,10 +66,12 @@ class Check {
 
   // ---- who runs whom
 
-  const Pass* find(const dsl::Graph& graph, const std::string& name) const {
+  // The first of each name that runs.
+  std::unordered_map<std::string_view, const Pass*> by_name(const dsl::Graph& graph) const {
+    std::unordered_map<std::string_view, const Pass*> result;
     for (const Pass& pass : graph.passes)
-      if (pass.name == name && holds(pass.guard, configuration_)) return &pass;
-    return nullptr;
+      if (holds(pass.guard, configuration_)) result.try_emplace(pass.name, &pass);
+    return result;
   }
 
   std::vector<std::string> members_of(const std::string& pass) const {
@@ -77,12 +81,14 @@ class Check {
   }
 
   void pair_up() {
-    std::map<std::string, size_t> runs;
+    const auto as_written = by_name(written_);
+    std::unordered_map<std::string, size_t> runs;
     for (const Pass& pass : fused_.passes) {
       if (!holds(pass.guard, configuration_)) continue;
       Unit unit{&pass, {}};
       for (const std::string& name : members_of(pass.name)) {
-        const Pass* member = find(written_, name);
+        const auto found = as_written.find(name);
+        const Pass* member = found == as_written.end() ? nullptr : found->second;
         if (member == nullptr) report(Hazard::missing_pass, nullptr, pass.name, name, "kernel `" + pass.name + "` runs `" + name + "`, which is no pass");
         if (member != nullptr) unit.members.push_back(member);
         ++runs[name];
@@ -101,9 +107,8 @@ class Check {
       if (!holds(pass.guard, configuration_)) continue;
       for (const Access& access : pass.accesses)
         if (reads(access))
-          for (const Location& at : locations(written_, access)) seen_[{&access, at}] = before_[at];
-      write(pass, before_);
-      last_ = before_;
+          for (const Location& at : locations(written_, access)) seen_[{&access, at}] = last_[at];
+      write(pass, last_);
     }
   }
 
@@ -232,7 +237,7 @@ class Check {
   const std::vector<Kernel>& kernels_;
   std::vector<Unit> units_;
   std::map<std::pair<const Access*, Location>, std::string> seen_;  // what each read sees as written
-  Versions before_, last_, now_;
+  Versions last_, now_;  // as written, as planned
   std::map<Location, const Pass*> kept_;
   std::vector<Finding> findings_;
 };
