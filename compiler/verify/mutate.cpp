@@ -29,6 +29,9 @@ const char* tag_name(BarrierTag tag) {
   return "tagged";
 }
 
+constexpr Accesses kWriting = access::shader_write | access::shader_storage_write | access::color_attachment_write |
+                              access::depth_stencil_attachment_write | access::transfer_write | access::host_write;
+
 class Mutator {
  public:
   Mutator(const dsl::Program& program, dsl::GraphId graph, const std::vector<uint32_t>& configuration, const Plan& plan,
@@ -228,10 +231,11 @@ class Mutator {
     for (const Step& step : plan_.steps) {
       if (step.kind != StepKind::pass) continue;
       const Pass& pass = plan_.passes[step.index];
-      for (const Access& row : plan_.accesses.subspan(pass.first_access, pass.access_count))
-        if (found && row.writes && row.ref == plan_.attachments[at].ref && meet(row.range, plan_.attachments[at].range))
+      if (draws_to(pass, at)) found = true;
+      if (!found || draws_to(pass, at)) continue;
+      for (const Access& row : accesses_of(step.index))
+        if (row.writes && row.ref == plan_.attachments[at].ref && meet(row.range, plan_.attachments[at].range))
           return pass.guard != 0 || pass.mip_limit_count != 0 ? "contents kept over a pass that may be skipped" : "";
-      found = found || draws_to(pass, at);
     }
     return {};
   }
@@ -363,17 +367,39 @@ class Mutator {
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
     judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged",
-          depend(plan_.steps[at].index, plan_.steps[next].index) ? "" : "exchanged passes that do not depend on each other");
+          depend(plan_.steps[at].index, plan_.steps[next].index, next + 1) ? "" : "exchanged passes that do not depend on each other");
   }
 
-  bool depend(Index a, Index b) const {
-    const Pass &first = plan_.passes[a], &second = plan_.passes[b];
-    for (const Access& x : plan_.accesses.subspan(first.first_access, first.access_count))
-      for (const Access& y : plan_.accesses.subspan(second.first_access, second.access_count))
+  std::span<const Access> accesses_of(Index pass) const { return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count); }
+
+  // `after`: the first step behind both.
+  bool depend(Index a, Index b, Index after) const {
+    for (const Access& x : accesses_of(a))
+      for (const Access& y : accesses_of(b))
         if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref) &&
-            !(commutes_in(a, x.ref) && commutes_in(b, x.ref)))
+            !(commutes_in(a, x.ref) && commutes_in(b, x.ref)) && !is_overwritten(x, y, after))
           return true;
     return false;
+  }
+
+  // Both write only, and so does whoever comes to it next, all of it and always: neither is missed.
+  bool is_overwritten(const Access& x, const Access& y, Index after) const {
+    if (reads(x) || reads(y)) return false;
+    for (Index s = after; s < plan_.steps.size(); ++s) {
+      if (plan_.steps[s].kind != StepKind::pass) continue;
+      const Index pass = plan_.steps[s].index;
+      const auto touches = [&](const Access& row) { return row.ref == x.ref && (meet(row.range, x.range) || meet(row.range, y.range)); };
+      const auto covers = [&](const Access& row) { return row.range == x.range && row.range == y.range && row.bytes == x.bytes && !reads(row); };
+      const auto rows = accesses_of(pass);
+      if (std::none_of(rows.begin(), rows.end(), touches)) continue;
+      return runs_always(pass) && std::all_of(rows.begin(), rows.end(), [&](const Access& row) { return !touches(row) || covers(row); });
+    }
+    return false;
+  }
+  static bool reads(const Access& row) { return !row.writes || (row.accesses & ~kWriting) != 0; }
+  bool runs_always(Index pass) const {
+    const dsl::Pass& row = program_.graphs[graph_].passes.rows[program_pass_[pass]];
+    return row.conditions.empty() && row.mip_limits.empty();
   }
 
   // All that the pass does to the resource is declared to commute.
@@ -388,11 +414,8 @@ class Mutator {
 
   // Two writers of contents that nobody reads may follow each other in any order.
   bool is_read(Ref ref) const {
-    const Accesses writes = access::shader_write | access::shader_storage_write | access::color_attachment_write |
-                            access::depth_stencil_attachment_write | access::transfer_write | access::host_write;
     if (plan_.resources[ref.resource].lifetime != Lifetime::transient) return true;
-    return std::any_of(plan_.accesses.begin(), plan_.accesses.end(),
-                       [&](const Access& row) { return row.ref == ref && (row.accesses & ~writes) != 0; });
+    return std::any_of(plan_.accesses.begin(), plan_.accesses.end(), [&](const Access& row) { return row.ref == ref && (row.accesses & ~kWriting) != 0; });
   }
 
   static bool meet(uint32_t begin, uint32_t count, uint32_t other, uint32_t other_count) {
