@@ -45,12 +45,12 @@ class Dropper {
       while (wait_earlier(s)) continue;
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::signal && !order_.scopes[s].everything) drop(s, {s, AtomField::whole, 0});
-    rest_on_memory();
+    rest_on_memory(lines);
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::barrier) order_.scopes[s].changes ? drop_discard(s) : drop(s, {s, AtomField::whole, 0});
     for (uint32_t s = 0; s < order_.scopes.size(); ++s) drop_bits(s);
     write_back();
-    trim_releases(lines);
+    sync_.releases = trimmed_releases(lines);
   }
 
  private:
@@ -79,12 +79,15 @@ class Dropper {
     }
   }
 
-  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done to transients since the signal before. No wait is kept
-  // for that, so waits are settled by now.
-  void rest_on_memory() {
+  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done, since the signal before, to transients that are released
+  // there. No wait is kept for that, so waits are settled by now.
+  void rest_on_memory(const std::vector<Line>& lines) {
+    if (std::none_of(sync_.batches.begin(), sync_.batches.end(), [](const BatchSync& batch) { return batch.for_memory != 0; })) return;
     std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> uses;  // by resource and queue
     for (const uint32_t use : last_uses_) uses[{frame_.cells[order_.sources[use].cell].resource, order_.sources[use].queue}].push_back(use);
-    for (const auto& [of, list] : uses) {
+    for (const Release& release : trimmed_releases(lines)) {
+      const std::pair<uint32_t, uint32_t> of{release.resource, release.queue};
+      const std::vector<uint32_t>& list = uses[of];
       uint32_t last = 0;
       for (const uint32_t use : list) last = std::max(last, order_.sources[use].after);
       const auto& signals = signals_on_[of.second];
@@ -202,8 +205,8 @@ class Dropper {
   }
 
   // Releases of a resource wait for all its last users together: what waits to and fro have ordered before one of them need not be named again.
-  void trim_releases(const std::vector<Line>& lines) {
-    if (schedule_.queues.size() == 1) return;
+  std::vector<Release> trimmed_releases(const std::vector<Line>& lines) {
+    if (schedule_.queues.size() == 1) return sync_.releases;
     find_last_slots(lines);
     std::map<uint32_t, std::vector<uint32_t>> uses;  // by resource
     for (const uint32_t use : last_uses_) uses[frame_.cells[order_.sources[use].cell].resource].push_back(use);
@@ -215,7 +218,7 @@ class Dropper {
       trim(rows, uses[rows.front().resource]);
       trimmed.insert(trimmed.end(), rows.begin(), rows.end());
     }
-    sync_.releases = std::move(trimmed);
+    return trimmed;
   }
   void find_last_slots(const std::vector<Line>& lines) {
     for (const Line& line : lines)

@@ -251,7 +251,13 @@ class Mutator {
     clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
     if (plan_.releases[at].point > 0)
       change(
-          &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early", harmless);
+          &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early",
+          is_released_elsewhere(at) ? "release behind users for which another queue waits" : harmless);
+  }
+
+  bool is_released_elsewhere(Index at) const {
+    const Release& row = plan_.releases[at];
+    return std::any_of(plan_.releases.begin(), plan_.releases.end(), [&](const Release& r) { return r.resource == row.resource && r.queue != row.queue; });
   }
 
   // Of buffers; an image's own barrier says what its acquire says.
