@@ -183,10 +183,33 @@ class Mutator {
           &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded", dead_contents(row));
     if (row.range.mips != kRemaining && row.range.mips > 1)
       change(
-          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.mips; }, what + ", last mip left out", harmless);
+          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.mips; }, what + ", last mip left out",
+          leaves_layout(at, row.range.mip + row.range.mips - 1, row.range.layer) ? "part of a discard whose layout stays" : harmless);
     if (row.range.layers != kRemaining && row.range.layers > 1)
       change(
-          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.layers; }, what + ", last layer left out", harmless);
+          &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.layers; }, what + ", last layer left out",
+          leaves_layout(at, row.range.mip, row.range.layer + row.range.layers - 1) ? "part of a discard whose layout stays" : harmless);
+  }
+
+  // Barriers are wide where neighbours need the same: of a part that is discarded, and is in the new layout anyway, others may say all there is to say.
+  bool leaves_layout(Index at, uint32_t mip, uint32_t layer) const {
+    const ImageBarrier& row = plan_.image_barriers[at];
+    if (row.old_layout != Layout::undefined || row.src_queue != row.dst_queue) return false;
+    const auto holds = [&](const Ref& ref, const Range& range) {
+      return ref == row.image && meet(range, {row.range.aspects, mip, 1, layer, 1});
+    };
+    Layout before = Layout::undefined;
+    for (const Boundary& entry : plan_.entry)
+      if (holds(entry.ref, entry.range)) before = entry.layout;
+    for (const Step& step : plan_.steps) {
+      if (step.kind != StepKind::barriers) continue;
+      const BarrierGroup& group = plan_.groups[step.index];
+      for (Index i = group.first_image; i < group.first_image + group.image_count; ++i) {
+        if (i == at) return before == row.new_layout;
+        if (holds(plan_.image_barriers[i].image, plan_.image_barriers[i].range)) before = plan_.image_barriers[i].new_layout;
+      }
+    }
+    return false;
   }
 
   // Contents that the next user overwrites entirely are not missed.
