@@ -245,6 +245,7 @@ PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
   result.reorder = result.reorder && !options.no_reorder.contains(graph);
   result.merge = result.merge && !options.no_merge.contains(graph);
   result.discard = result.discard && !options.no_discard.contains(graph);
+  result.fold = result.fold && !options.no_fold.contains(graph);
   return result;
 }
 
