@@ -64,7 +64,9 @@ class Generator {
 
   void declare_image(uint32_t i) {
     constexpr Format kFormats[] = {Format::rgba16f, Format::rgba16f, Format::r32ui, Format::d32f, Format::d32f_s8};
-    Resource row = image_row("i" + std::to_string(i), kFormats[below(5)], 1 + below(3));
+    const uint32_t divisor = 1 + below(3);
+    const Format format = kFormats[below(5)];
+    Resource row = image_row("i" + std::to_string(i), format, divisor);
     if (row.format == Format::rgba16f || row.format == Format::r32ui) row.mips = 1 + below(4);
     row.layers = one_in(3) ? 2 + below(3) : 1;
     keep_some(row, i);
