@@ -138,7 +138,7 @@ class Folder {
     for (uint32_t a = 0; a < pass(edit.into).accesses.size(); ++a) {
       const Access& access = pass(edit.into).accesses[a];
       if (!overlap(access, cleared)) continue;
-      if (!is_attachment(access.role)) return fmt::format("{} besides, which no clear at the beginning reaches", use_text({edit.into, a}));
+      if (!is_attachment(access.role)) return fmt::format("{} otherwise than as an attachment", use_text({edit.into, a}));
       if (std::string why = drawn_obstacle(access, all, edit.into); !why.empty()) return why;
       if (access.mode == dsl::Mode::read) return fmt::format("{} only, and what is read only is not cleared", use_text({edit.into, a}));
       if (access.clear || !needs_contents(pass(edit.into), access)) return fmt::format("`{}` defines all of `{}` itself", name(edit.into), name_of_image);

@@ -32,6 +32,21 @@ bool selected(const Pass& pass, const std::vector<uint32_t>& configuration) {
   return true;
 }
 
+// Of a format by its name: `d32f_s8`.
+uint32_t aspects_of(const dsl::Resource& image) {
+  const std::string name = dsl::name(image.format);
+  const bool depth = name[0] == 'd', stencil = name.ends_with("s8");
+  return depth || stencil ? (depth ? 2u : 0u) | (stencil ? 4u : 0u) : 1u;
+}
+// An attachment is its own aspect; what shaders see of both is depth.
+uint32_t aspects_of(const dsl::Resource& image, const Access& access) {
+  if (access.range.aspects != 0) return access.range.aspects;
+  const uint32_t all = aspects_of(image);
+  if (access.role == Role::stencil) return 4;
+  const bool shader = access.role == Role::sampled || access.role == Role::storage || access.role == Role::input;
+  return access.role == Role::depth || access.role == Role::depth_readonly || (shader && (all & 2) != 0) ? 2 : all;
+}
+
 Conditions conditions_of(const Pass& pass) {
   Conditions all;
   for (const dsl::ConditionId id : pass.conditions) all.insert({0, id.value, 0});
@@ -108,7 +123,7 @@ class Run {
   std::vector<Location> locations(const Access& access) const {
     const dsl::Resource& row = graph_.resources[access.resource];
     if (row.kind == dsl::ResourceKind::buffer) return {{access.resource.value, access.age, 0, 0, 0}};
-    const uint32_t aspects = access.range.aspects == 0 ? 7 : access.range.aspects;
+    const uint32_t aspects = aspects_of(row, access);
     const bool one_mip = is_target(access) || access.role == Role::depth_readonly;
     const uint32_t mips = one_mip ? 1 : std::min(access.range.mips, row.mips - access.range.mip), layers = std::min(access.range.layers, row.layers - access.range.layer);
     std::vector<Location> all;
@@ -209,17 +224,18 @@ class Check {
     for (size_t i = 0; i < a.accesses.size() && i < b.accesses.size(); ++i) {
       const Access &x = a.accesses[i], &y = b.accesses[i];
       check_access(a, x, y);
-      const std::vector<uint32_t> seen = before_.found(a, x), now = after_.found(b, y);
-      for (size_t at = 0; at < std::max(seen.size(), now.size()); ++at)
-        if (at >= seen.size() || at >= now.size() || seen[at] != now[at]) return mismatch(a, x, at < seen.size() ? &seen[at] : nullptr, at < now.size() ? &now[at] : nullptr);
+      check_terms(a, x, before_.found(a, x), after_.found(b, y));
     }
     after_.step(b);
     if (a.accesses.size() > b.accesses.size()) report(Hazard::invalid_plan, nullptr, a.name, "lost an access");
     for (size_t i = a.transfers.size(); i < b.transfers.size(); ++i) check_resolve(b, b.transfers[i]);
   }
 
-  void mismatch(const Pass& pass, const Access& access, const uint32_t* seen, const uint32_t* now) {
-    const auto text = [&](const uint32_t* term) { return term == nullptr ? std::string("nothing") : language_.text(*term); };
+  void check_terms(const Pass& pass, const Access& access, const std::vector<uint32_t>& seen, const std::vector<uint32_t>& now) {
+    size_t at = 0;
+    while (at < seen.size() && at < now.size() && seen[at] == now[at]) ++at;
+    if (at == seen.size() && at == now.size()) return;
+    const auto text = [&](const std::vector<uint32_t>& terms) { return at < terms.size() ? language_.text(terms[at]) : std::string("nothing"); };
     report(Hazard::wrong_version, &access, pass.name, "sees " + text(now) + " in `" + apart_.resources[access.resource].name + "`, and " + text(seen) + " as written");
   }
 

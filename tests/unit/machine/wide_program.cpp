@@ -152,7 +152,14 @@ class Generator {
   void add_resolve(uint32_t i) {
     line(fmt::format("image m{} : rgba16f view samples 4", i));
     line(fmt::format("image m{}_flat : rgba16f view", i));
-    line(fmt::format("pass m{}_draw : raster {{ color m{} clear 0  resolve m{} -> m{}_flat{} }}", i, i, i, i, some_reads("fragment")));
+    const std::string reads = some_reads("fragment");
+    if (chance(2)) {
+      line(fmt::format("pass m{}_draw : raster {{ color m{} clear 0  resolve m{} -> m{}_flat{} }}", i, i, i, i, reads));
+    } else {  // passes of their own, which the rendering may take in
+      line(fmt::format("pass m{}_wipe : transfer{} {{ clear m{} 0 }}", i, chance(4) ? " queue compute may" : "", i));
+      line(fmt::format("pass m{}_draw : raster {{ color m{}{} }}", i, i, reads));
+      line(fmt::format("pass m{}_resolve : transfer {{ resolve m{} -> m{}_flat }}", i, i, i));
+    }
     image(fmt::format("m{}_flat", i));
   }
 
