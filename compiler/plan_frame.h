@@ -73,6 +73,7 @@ struct FramePlan {
   PlanData plan;  // without pipelines, bindings and shaders: see codegen/bind.h
   Decisions decisions;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
+  uint64_t lazy_bytes = 0, heap_beside_lazy_bytes = 0;                  // as in MemoryPlan; the second only with PlanOptions::reasons
   Overlap overlap;
   OrderFacts order;
   uint32_t unproved = 0;  // facts that synchronisation has to achieve and does not, see obligations.h: 0, or the planner is wrong

@@ -22,6 +22,9 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
     text += fmt::format("              {} in {}\n", counted(facts.passes_raster, "raster pass", "raster passes"), counted(facts.renderings, "rendering"));
   text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
                       mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
+  if (facts.lazy_bytes > 0)
+    text += fmt::format("              {} where the device has lazily allocated memory, for {} that no rendering loads or stores\n", mib(facts.heap_beside_lazy_bytes),
+                        mib(facts.lazy_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
   text += fmt::format("  order     {}; {} pairs of passes are ordered, {} have to be\n", facts.order.method, facts.order.ordered_pairs,
                       facts.order.needed_pairs);
