@@ -53,6 +53,9 @@ VkResult VKAPI_CALL create_buffer(VkDevice, const VkBufferCreateInfo* info, cons
   return VK_SUCCESS;
 }
 void VKAPI_CALL image_requirements(VkDevice, VkImage image, VkMemoryRequirements* out) { *out = {sizes[reinterpret_cast<uint64_t>(image)], 65536, 1}; }
+void VKAPI_CALL image_requirements_2(VkDevice device, const VkImageMemoryRequirementsInfo2* info, VkMemoryRequirements2* out) {
+  image_requirements(device, info->image, &out->memoryRequirements);
+}
 void VKAPI_CALL buffer_requirements(VkDevice, VkBuffer buffer, VkMemoryRequirements* out) { *out = {sizes[reinterpret_cast<uint64_t>(buffer)], 256, 1}; }
 VkResult VKAPI_CALL map_memory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void** data) {
   *data = mapped;
@@ -103,7 +106,8 @@ const std::map<std::string, PFN_vkVoidFunction>& table() {
 #include "runtime/functions.def"
     auto set = [&](const char* name, auto* function) { out[name] = reinterpret_cast<PFN_vkVoidFunction>(function); };
     set("vkCreateImage", create_image), set("vkCreateBuffer", create_buffer);
-    set("vkGetImageMemoryRequirements", image_requirements), set("vkGetBufferMemoryRequirements", buffer_requirements);
+    set("vkGetImageMemoryRequirements", image_requirements), set("vkGetImageMemoryRequirements2", image_requirements_2);
+    set("vkGetBufferMemoryRequirements", buffer_requirements);
     set("vkMapMemory", map_memory), set("vkGetSemaphoreCounterValue", semaphore_value);
     set("vkAllocateCommandBuffers", allocate_commands), set("vkAllocateDescriptorSets", allocate_sets);
     set("vkGetPhysicalDeviceProperties", properties), set("vkGetPhysicalDeviceMemoryProperties", memory_properties);

@@ -7,16 +7,18 @@
 
 namespace rg::compiler {
 
-void check_switches(const std::string& root_path, const dsl::Program& program, const PlanOptions& options, dsl::Diagnostics& diagnostics) {
+void check_switches(const std::string& root_path, const dsl::Program& written, const dsl::Program& planned, const PlanOptions& options,
+                    dsl::Diagnostics& diagnostics) {
   const auto check = [&](const char* flag, const std::set<std::string>& names, auto rows_of) {
     for (const std::string& name : names) {
       const auto has = [&](const auto& rows) { return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; }); };
-      const bool known = has(program.graphs) ||
-                         std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
-      if (known) continue;
+      const auto knows = [&](const dsl::Program& program) {
+        return has(program.graphs) || std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
+      };
+      if (knows(planned) || knows(written)) continue;
       dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::UnknownSubject, {}, {std::string(flag) + "=" + name, root_path});
       std::vector<std::string_view> all;
-      for (const dsl::Graph& graph : program.graphs)
+      for (const dsl::Graph& graph : written.graphs)
         for (const auto& row : rows_of(graph)) all.push_back(row.name);
       if (const std::string guess = dsl::closest(name, all).shown(); !guess.empty()) error.note(dsl::DiagnosticKind::DidYouMean, {}, {guess});
     }
@@ -28,5 +30,6 @@ void check_switches(const std::string& root_path, const dsl::Program& program, c
   check("--no-async", options.no_async, passes);
   check("--no-reorder", options.no_reorder, passes);
   check("--no-merge", options.no_merge, passes);
+  check("--no-fold", options.no_fold, passes);
 }
 }  // namespace rg::compiler

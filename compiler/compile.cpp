@@ -72,6 +72,14 @@ std::vector<std::string> make_kernels(const std::string& root_path, const dsl::R
   return std::move(fusion.read_files);
 }
 
+// Renderings clear and resolve by themselves where passes of their own would.
+void fold(const CompileOptions& options, CompileResult& result) {
+  FoldResult folded = fold_transfers(result.program, options.plan, options.fixed_features, options.max_plans);
+  result.unfolded = std::exchange(result.program, std::move(folded.program));
+  result.folded = std::move(folded.folds);
+  result.not_folded = std::move(folded.refusals);
+}
+
 // What the cache went through, reported where it is not as it should be.
 ShaderCache::Counts settle(const ShaderCache& cache, dsl::Diagnostics& diagnostics) {
   const ShaderCache::Counts counts = cache.counts();
@@ -145,6 +153,7 @@ std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph
     attach_shaders(plan.plan, program, graph.graph, graph.shaders, plans.size());
     for (FusionNote& note : fusion_notes(result.written, result.fused, result.not_fused, graph.graph))
       plan.decisions.push_back({std::move(note.subject), std::move(note.what), std::move(note.reason)});
+    for (Decision& decision : fold_decisions(result.folded, result.not_folded, graph.graph)) plan.decisions.push_back(std::move(decision));
     plans.push_back(std::move(plan));
   }
   return plans;
@@ -202,6 +211,9 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
   if (diagnostics.has_errors()) return result;
 
+  // Passes that only clear or resolve become part of the renderings next to them.
+  fold(options, result);
+
   // Which plans have to exist, and their shaders behind generated interfaces; what those really touch completes the declared accesses.
   if (options.list_tasks || options.shards > 0) return run_tasks(root_path, read, options, cache ? &*cache : nullptr, std::move(result), diagnostics);
   for (size_t g = 0; g < result.program.graphs.size(); ++g)
@@ -219,7 +231,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
   // What switches name, and queues that passes insist on.
-  check_switches(root_path, result.program, options.plan, diagnostics);
+  check_switches(root_path, result.unfolded, result.program, options.plan, diagnostics);
   for (const CompiledGraph& graph : result.graphs) {
     check_queues(result.program, graph.graph, graph.configurations, diagnostics);
     check_first_queue(result.program, graph.graph, graph.configurations, options.plan, diagnostics);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compiler/codegen/generate.h"
+#include "compiler/fold_transfers.h"
 #include "compiler/fusion/fuse_passes.h"
 #include "compiler/plan_frame.h"
 #include "compiler/shaders/cache.h"
@@ -59,6 +60,9 @@ struct CompileResult {
   dsl::Program written;                 // the program before its blocks became kernels
   std::vector<FusedKernel> fused;
   std::vector<FusionRefusal> not_fused;
+  dsl::Program unfolded;                // the program with kernels, before renderings took in passes that clear and resolve
+  std::vector<Fold> folded;
+  std::vector<FoldRefusal> not_folded;
   std::vector<CompiledGraph> graphs;    // in order of declaration
   std::vector<GeneratedFile> files;     // paths relative to the output folder
   std::vector<std::string> read_files;  // sources and shader files, for a depfile

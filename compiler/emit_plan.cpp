@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "compiler/format_table.h"
+#include "compiler/lazy_attachments.h"
 #include "compiler/slots.h"
 
 namespace rg::compiler {
@@ -120,6 +121,7 @@ PlanData emit_plan(const PlanParts& parts) {
   emit_program_tables(parts, indices, plan);
   emit_resources(parts, indices, exprs, plan);
   emit_passes(parts, indices, exprs, plan);
+  mark_lazy(plan);
   emit_barriers(parts, indices, exprs, plan);
   emit_steps(parts, plan);
   emit_waits(parts, plan);

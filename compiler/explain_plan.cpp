@@ -140,6 +140,9 @@ void explain_memory(const PlanData& plan, Decisions& out) {
     else
       text += neighbours_text(plan, neighbours.before[r], neighbours.after[r], r);
     out.push_back({std::string(resource.name), "placed", std::move(text)});
+    if (resource.lazy)
+      out.push_back({std::string(resource.name), "lazy",
+                     "no rendering loads or stores it and nothing else sees it: where a device has lazily allocated memory it takes none of the heap"});
   }
 }
 

@@ -218,7 +218,7 @@ Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
   Placed placed{watch.time("emit_plan", [&] { return emit_plan(parts); }), {}};
   placed.memory = watch.time("plan_memory", [&] {
     find_alias_clocks(placed.plan, parts.sync.over_at);
-    return place_transients(placed.plan, parts.options.effort);
+    return place_transients(placed.plan, parts.options.effort, parts.options.reasons);
   });
   return placed;
 }
@@ -245,6 +245,7 @@ PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
   result.reorder = result.reorder && !options.no_reorder.contains(graph);
   result.merge = result.merge && !options.no_merge.contains(graph);
   result.discard = result.discard && !options.no_discard.contains(graph);
+  result.fold = result.fold && !options.no_fold.contains(graph);
   return result;
 }
 
@@ -295,6 +296,7 @@ FramePlan plan_frame(const dsl::Program& program, dsl::GraphId graph_id, const C
   result.decisions.insert(result.decisions.end(), arranged.renderings.decisions.begin(), arranged.renderings.decisions.end());
   result.decisions.insert(result.decisions.end(), queues.decisions.begin(), queues.decisions.end());
   result.heap_bytes = memory.heap_bytes, result.unaliased_bytes = memory.unaliased_bytes, result.lower_bound_bytes = memory.lower_bound_bytes;
+  result.lazy_bytes = memory.lazy_bytes, result.heap_beside_lazy_bytes = memory.heap_beside_lazy_bytes;
   result.phase_ms = std::move(watch.phases);
   return result;
 }

@@ -26,9 +26,10 @@ struct PlanOptions {
   bool reorder = true;   // passes run in another order than the program's
   bool merge = true;     // passes without a barrier group between them, renderings of several passes
   bool discard = true;   // contents that nobody needs are not kept
+  bool fold = true;      // renderings clear and resolve what passes of their own would, see fold_transfers.h
   bool reasons = false;  // decisions for everything, pairs of OrderFacts: what reports and `rgc explain` ask for. Else decisions of queues and renderings
-  std::set<std::string> no_aliasing = {}, no_discard = {};             // graphs and resources
-  std::set<std::string> no_async = {}, no_reorder = {}, no_merge = {};  // graphs and passes
+  std::set<std::string> no_aliasing = {}, no_discard = {};                            // graphs and resources
+  std::set<std::string> no_async = {}, no_reorder = {}, no_merge = {}, no_fold = {};  // graphs and passes
   uint64_t image_alignment = 65536, buffer_alignment = 256;  // of the device profile used for estimates
   Prefer prefer = Prefer::balance;
   Effort effort = Effort::normal;
@@ -72,6 +73,7 @@ struct FramePlan {
   PlanData plan;  // without pipelines, bindings and shaders: see codegen/bind.h
   Decisions decisions;
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // at the initial extents
+  uint64_t lazy_bytes = 0, heap_beside_lazy_bytes = 0;                  // as in MemoryPlan; the second only with PlanOptions::reasons
   Overlap overlap;
   OrderFacts order;
   uint32_t unproved = 0;  // facts that synchronisation has to achieve and does not, see obligations.h: 0, or the planner is wrong

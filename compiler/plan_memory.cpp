@@ -14,13 +14,14 @@ struct Items {
   std::vector<packing::Item> rows;
 };
 
-Items list_items(const PlanData& plan, const Plan& view) {
+// `lazy`: with images that may live on the chip.
+Items list_items(const PlanData& plan, const Plan& view, bool lazy) {
   const std::vector<alias::GroupInterval> intervals = alias::group_intervals(view);
   const alias::Sharing sharing(view);
   Items items;
   for (Index r = 0; r < plan.resources.size(); ++r) {
     const Resource& resource = plan.resources[r];
-    if (resource.lifetime != Lifetime::transient || !intervals[r].used()) continue;
+    if (resource.lifetime != Lifetime::transient || !intervals[r].used() || (resource.lazy && !lazy)) continue;
     const bool alone = resource.no_alias || !sharing.acquire(r);
     const uint32_t begin = alone ? 0 : intervals[r].begin, end = alone ? static_cast<uint32_t>(plan.groups.size()) : intervals[r].end + 1;
     items.resources.push_back(r);
@@ -60,20 +61,26 @@ uint64_t packing_effort(Effort effort, size_t items) {
   return 4000 * items;
 }
 
+packing::Placement place(const Items& items, const Plan& view, Effort effort) {
+  const uint64_t work = packing_effort(effort, items.rows.size());
+  if (view.queues.size() == 1) return packing::pack(items.rows, work);
+  return packing::pack(items.rows, list_conflicts(items, view), work, bound_on_queues(items, view));
+}
+
 }  // namespace
 
-MemoryPlan place_transients(PlanData& plan, Effort effort) {
+MemoryPlan place_transients(PlanData& plan, Effort effort, bool beside_lazy) {
   const Plan view = plan.view();
-  const Items items = list_items(plan, view);
+  const Items items = list_items(plan, view, true);
   MemoryPlan memory;
   for (const packing::Item& item : items.rows) memory.unaliased_bytes += item.bytes;
-  const uint64_t work = packing_effort(effort, items.rows.size());
-  const bool one = plan.queues.size() == 1;
-  const packing::Placement placement =
-      one ? packing::pack(items.rows, work) : packing::pack(items.rows, list_conflicts(items, view), work, bound_on_queues(items, view));
+  const packing::Placement placement = place(items, view, effort);
   for (size_t i = 0; i < items.rows.size(); ++i) plan.resources[items.resources[i]].estimated_offset = placement.offsets[i];
   memory.heap_bytes = placement.heap_bytes, memory.lower_bound_bytes = placement.lower_bound_bytes;
   plan.estimated_heap_bytes = memory.heap_bytes;
+  for (const Index r : items.resources) memory.lazy_bytes += plan.resources[r].lazy ? plan.resources[r].estimated_bytes : 0;
+  memory.heap_beside_lazy_bytes = memory.heap_bytes;
+  if (beside_lazy && memory.lazy_bytes > 0) memory.heap_beside_lazy_bytes = place(list_items(plan, view, false), view, effort).heap_bytes;
   return memory;
 }
 

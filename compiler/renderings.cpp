@@ -73,8 +73,6 @@ class Finder {
       if (live_[pass] && frame_.pass(pass).kind == dsl::PassKind::raster) consider(pass);
     }
     if (!links_.empty()) keep_free_links(graph);
-    for (uint32_t pass = 0; pass < frame_.passes.size(); ++pass)
-      if (live_[pass] && frame_.pass(pass).kind == dsl::PassKind::transfer) suggest_folding(pass);
     finish();
     return std::move(result_);
   }
@@ -280,46 +278,6 @@ class Finder {
       const auto row = written.find({leader, use.cell});
       if (!use.writes() && row != written.end() && row->second != use.effect.layout) result_.layouts.push_back({index, row->second});
     });
-  }
-
-  // A pass that only clears what a rendering begins with, or resolves what one ends with: the rendering can do that by itself.
-  void suggest_folding(uint32_t pass) {
-    for (const dsl::Transfer& transfer : frame_.pass(pass).transfers) {
-      const bool clears = transfer.kind == dsl::TransferKind::clear;
-      if (!clears && transfer.kind != dsl::TransferKind::resolve) continue;
-      const dsl::Access& access = frame_.pass(pass).accesses[clears ? transfer.dst : transfer.src];
-      const uint32_t other = clears ? neighbour(access, pass, 1) : neighbour(access, pass, -1);
-      if (other == UINT32_MAX || !draws_to(other, access)) continue;
-      const std::string& image = frame_.graph->resources[access.resource].name;
-      note(pass, "not folded",
-           fmt::format("`{}` draws to `{}` {}; with `{}` there its rendering would {} so, without this pass and a barrier between", name(other), image,
-                       clears ? "next" : "before", clears ? "clear" : "resolve", clears ? "begin" : "end"));
-    }
-  }
-  // The next live pass in that direction that touches something of the access.
-  uint32_t neighbour(const dsl::Access& access, uint32_t pass, int step) const {
-    const std::vector<uint32_t> cells = cells_of(frame_, access);
-    for (uint32_t other = pass + static_cast<uint32_t>(step); other < frame_.passes.size(); other += static_cast<uint32_t>(step)) {
-      const auto uses = frame_.uses_of(other);
-      const auto touches = [&](const Use& use) { return std::binary_search(cells.begin(), cells.end(), use.cell); };
-      if (!live_[other] || std::none_of(uses.begin(), uses.end(), touches)) continue;
-      const bool together = runs_with(frame_.pass(pass), frame_.pass(other)) && runs_with(frame_.pass(other), frame_.pass(pass));
-      return together ? other : UINT32_MAX;
-    }
-    return UINT32_MAX;
-  }
-  // As an attachment only, all that the access touches, in the state it is in.
-  bool draws_to(uint32_t pass, const dsl::Access& access) const {
-    if (frame_.pass(pass).kind != dsl::PassKind::raster) return false;
-    const std::vector<uint32_t> cells = cells_of(frame_, access);
-    std::vector<uint32_t> drawn;
-    for (const dsl::Access& other : frame_.pass(pass).accesses) {
-      if (other.resource != access.resource || other.age != access.age) continue;
-      if (!is_attachment(other.role) || other.clear || other.mode == dsl::Mode::read) return false;
-      for (const uint32_t cell : cells_of(frame_, other)) drawn.push_back(cell);
-    }
-    std::sort(drawn.begin(), drawn.end());
-    return drawn == cells;
   }
 
   const std::string& name(uint32_t pass) const { return frame_.pass(pass).name; }

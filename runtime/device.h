@@ -75,6 +75,8 @@ struct NullOptions {
   bool fails_from_then_on = false;                          // `fail_at` and all later ones fail: a lost device stays lost
   uint32_t compute_queues = 0, transfer_queues = 0;         // each kind in a family of its own, beside one universal queue
   std::vector<Capability> capabilities = {};                // that it has
+  bool lazy_memory = false;                                 // a memory type that is backed as needed, for images that live in renderings only
+  bool prefers_dedicated = false, requires_dedicated = false;  // memory of its own for every image
 };
 
 // One Vulkan device and its queues. Outlives every instance, swapchain and object made with it. Movable: what was made with it stays valid. Any thread may use it;

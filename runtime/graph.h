@@ -114,8 +114,9 @@ struct GraphOptions {
   Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
 };
 
-// Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory.
-struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0; };
+// Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory, and images in
+// memory that the driver backs only where a rendering does not fit on the chip; those are in no other figure.
+struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0, lazy_bytes = 0; };
 struct PassTime { std::string_view pass; double ms = 0; double begin_ms = 0; };  // begin: after the frame's first timestamp, on the clock of its queue
 // Of one pass of a graphics queue; zeros elsewhere.
 struct PassStatistics {

@@ -273,7 +273,7 @@ struct Ring {
 struct Kept {
   VkImageCreateInfo image{};  // what it was made with; the pointers in it are not followed
   VkBufferCreateInfo buffer{};
-  UniqueMemory memory;  // declared before what lies in it
+  std::vector<UniqueMemory> memories;  // one, or one a copy; declared before what lies in them
   std::vector<UniqueImage> images;
   std::vector<UniqueBuffer> buffers;
   uint64_t valid_since = 0;  // the frame that found it in its initial state
@@ -324,7 +324,7 @@ struct Sized {
   std::vector<Index> row_of_step;     // by Plan::steps, and the end: a group in front of a pass has the pass's row
   std::vector<TransferRef> updates;   // transfers whose bytes the host brings
   std::vector<Index> imported_sets;   // passes whose sets hold imports
-  std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps, laid end to end
+  std::vector<alias::Placed> placed;  // by Plan::resources: transients in their heaps and in memory of their own, laid end to end
   MemoryReport report;
   std::vector<PlacedResource> placements;
 };

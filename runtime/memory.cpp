@@ -12,7 +12,7 @@ namespace rg {
 
 namespace {
 
-enum class Arena : uint8_t { transient, own, host };
+enum class Arena : uint8_t { transient, lazy, own, host };
 
 struct Item {  // one physical copy
   Index resource = kNone;
@@ -21,6 +21,7 @@ struct Item {  // one physical copy
   Arena arena = Arena::transient;
   uint32_t type = UINT32_MAX;
   VkDeviceSize bytes = 0, alignment = 1, offset = 0;
+  bool dedicated = false;  // memory of its own
 };
 
 Arena arena_of(const Resource& resource) {
@@ -31,25 +32,45 @@ Arena arena_of(const Resource& resource) {
 constexpr VkMemoryPropertyFlags kHostMemory = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 uint32_t choose_type(const Context& context, Arena arena, uint32_t type_bits) {
+  if (arena == Arena::lazy) return find_memory_type(context.device, type_bits, VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT, 0);
   if (arena == Arena::host) return find_memory_type(context.device, type_bits, kHostMemory, VK_MEMORY_PROPERTY_HOST_CACHED_BIT);
   return find_memory_type(context.device, type_bits, 0, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
 }
 
 VkDeviceSize round_up(VkDeviceSize value, VkDeviceSize alignment) { return (value + alignment - 1) / alignment * alignment; }
 
+// A preference is no reason to give up what sharing saves.
+VkMemoryRequirements requirements_of(const Context& context, const Sized& sized, Item& item) {
+  if (!item.is_image) {
+    VkMemoryRequirements requirements;
+    context.vk().GetBufferMemoryRequirements(context.device.device, sized.buffers[item.object], &requirements);
+    return requirements;
+  }
+  VkMemoryDedicatedRequirements dedicated{};
+  dedicated.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS;
+  VkMemoryRequirements2 requirements{};
+  requirements.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2;
+  requirements.pNext = &dedicated;
+  VkImageMemoryRequirementsInfo2 info{};
+  info.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2;
+  info.image = sized.images[item.object];
+  context.vk().GetImageMemoryRequirements2(context.device.device, &info, &requirements);
+  const bool shares = item.arena == Arena::transient && context.aliasing && !context.plan.resources[item.resource].no_alias;
+  item.dedicated = dedicated.requiresDedicatedAllocation || (dedicated.prefersDedicatedAllocation && !shares);
+  return requirements.memoryRequirements;
+}
+
 // Buffers and images share heaps, so both keep to the granularity at which they must not meet.
 Item make_item(const Context& context, const Sized& sized, Index r, uint32_t object) {
   const Resource& resource = context.plan.resources[r];
   Item item{r, object, resource.kind == ResourceKind::image, arena_of(resource)};
-  VkMemoryRequirements requirements;
-  if (item.is_image)
-    context.vk().GetImageMemoryRequirements(context.device.device, sized.images[object], &requirements);
-  else
-    context.vk().GetBufferMemoryRequirements(context.device.device, sized.buffers[object], &requirements);
+  const VkMemoryRequirements requirements = requirements_of(context, sized, item);
   const VkDeviceSize granularity = std::max<VkDeviceSize>(context.device.limits.bufferImageGranularity, 1);
   item.alignment = std::max(requirements.alignment, granularity);
   item.bytes = round_up(requirements.size, granularity);
-  item.type = choose_type(context, item.arena, requirements.memoryTypeBits);
+  const uint32_t lazy_type = resource.lazy ? choose_type(context, Arena::lazy, requirements.memoryTypeBits) : UINT32_MAX;
+  if (lazy_type != UINT32_MAX && resource.lifetime == Lifetime::transient) item.arena = Arena::lazy;
+  item.type = item.arena == Arena::lazy ? lazy_type : choose_type(context, item.arena, requirements.memoryTypeBits);
   return item;
 }
 
@@ -119,12 +140,12 @@ VkDeviceSize sum_bytes(const std::vector<Item*>& items) {
 VkDeviceSize place(const Context& context, Sized& sized, Arena arena, const std::vector<Item*>& items) {
   if (arena != Arena::transient) {
     const VkDeviceSize heap = place_side_by_side(items);
-    (arena == Arena::own ? sized.report.persistent_bytes : sized.report.host_bytes) += heap;
+    (arena == Arena::own ? sized.report.persistent_bytes : arena == Arena::lazy ? sized.report.lazy_bytes : sized.report.host_bytes) += heap;
     return heap;
   }
   VkDeviceSize lower_bound = sum_bytes(items);
-  const VkDeviceSize heap = context.aliasing ? place_aliased(context, items, lower_bound) : place_side_by_side(items);
-  // Hand-offs see all heaps as one range of bytes.
+  const VkDeviceSize heap = context.aliasing && !items[0]->dedicated ? place_aliased(context, items, lower_bound) : place_side_by_side(items);
+  // Hand-offs see all heaps as one range of bytes; what is in none of them is handed to nobody.
   for (const Item* item : items) sized.placed[item->resource] = {sized.report.heap_bytes + item->offset, item->bytes};
   sized.report.heap_bytes += heap;
   sized.report.unaliased_bytes += sum_bytes(items);
@@ -154,14 +175,22 @@ Status place_in_heap(const Context& context, Sized& sized, uint32_t type, const 
   return Done{};
 }
 
+// Memory for these alone; `keep` owns it.
+Status place_alone(const Context& context, Sized& sized, const std::vector<Item*>& items, std::vector<UniqueMemory>& keep) {
+  const VkDeviceSize bytes = place(context, sized, items[0]->arena, items);
+  const VkImage image = items[0]->dedicated ? sized.images[items[0]->object] : VK_NULL_HANDLE;
+  Result<UniqueMemory> memory = allocate_memory(context.device, bytes, items[0]->type, context.plan.resources[items[0]->resource].name, image);
+  if (!memory) return memory.error();
+  for (const Item* item : items) RG_TRY(bind(context, sized, *item, memory->get()));
+  keep.push_back(std::move(*memory));
+  return Done{};
+}
+
 // Memory of its own for a resource that outlives plans.
 Status place_kept(const Context& context, Sized& sized, const std::vector<Item*>& copies) {
   Kept& kept = *sized.kept[copies[0]->resource];
-  const VkDeviceSize bytes = place(context, sized, Arena::own, copies);
-  Result<UniqueMemory> memory = allocate_memory(context.device, bytes, copies[0]->type, context.plan.resources[copies[0]->resource].name);
-  if (!memory) return memory.error();
-  kept.memory = std::move(*memory);
-  for (const Item* item : copies) RG_TRY(bind(context, sized, *item, kept.memory.get()));
+  if (!copies[0]->dedicated) return place_alone(context, sized, copies, kept.memories);
+  for (Item* copy : copies) RG_TRY(place_alone(context, sized, {copy}, kept.memories));
   return Done{};
 }
 
@@ -189,12 +218,16 @@ Status place_arena(const Context& context, Sized& sized, Arena arena, uint32_t t
 
 }  // namespace
 
-Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, uint32_t type, std::string_view name) {
+Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, uint32_t type, std::string_view name, VkImage dedicated) {
   if (type == UINT32_MAX) return Error{ErrorCode::unsupported, "`" + std::string(name) + "`: the device has no memory of the kind that is needed"};
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   info.allocationSize = bytes;
   info.memoryTypeIndex = type;
+  VkMemoryDedicatedAllocateInfo only{};
+  only.sType = VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO;
+  only.image = dedicated;
+  if (dedicated != VK_NULL_HANDLE) info.pNext = &only;
   VkDeviceMemory memory = VK_NULL_HANDLE;
   RG_TRY(check(device.vk.AllocateMemory(device.device, &info, device.vk.allocator, &memory), "vkAllocateMemory", name));
   return UniqueMemory(device.vk, device.device, memory);
@@ -204,13 +237,15 @@ Status place_resources(const Context& context, Sized& sized) {
   std::vector<Item> items = list_items(context, sized);
   sized.placed.resize(sized.resources.size());
   RG_TRY(place_all_kept(context, sized, items));
-  for (const Arena arena : {Arena::transient, Arena::host})
+  for (const Arena arena : {Arena::transient, Arena::lazy, Arena::host})
     for (uint32_t type = 0; type < VK_MAX_MEMORY_TYPES; ++type) {
       std::vector<Item*> chosen;
       for (Item& item : items)
-        if (item.arena == arena && item.type == type) chosen.push_back(&item);
+        if (item.arena == arena && item.type == type && !item.dedicated) chosen.push_back(&item);
       if (!chosen.empty()) RG_TRY(place_arena(context, sized, arena, type, chosen));
     }
+  for (Item& item : items)
+    if (item.dedicated && item.arena != Arena::own && item.type != UINT32_MAX) RG_TRY(place_alone(context, sized, {&item}, sized.memories));
   for (const Item& item : items) {
     if (item.type == UINT32_MAX)
       return Error{ErrorCode::unsupported, "`" + std::string(context.plan.resources[item.resource].name) + "`: no memory type fits"};

@@ -26,7 +26,7 @@ struct NullQueue {  // behind a VkQueue
 
 struct NullObject {
   uint64_t bytes = 0;
-  uint32_t alignment = 1;
+  uint32_t alignment = 1, memory_types = 0b11;
 };
 
 struct NullDevice {
@@ -191,22 +191,32 @@ uint64_t image_bytes(const VkImageCreateInfo& info) {
 
 VkMemoryRequirements requirements(const NullObject& object) {
   const uint64_t alignment = object.alignment;
-  return {(object.bytes + alignment - 1) / alignment * alignment, alignment, 0b11};
+  return {(object.bytes + alignment - 1) / alignment * alignment, alignment, object.memory_types};
 }
 
 VkResult VKAPI_CALL create_image(VkDevice device, const VkImageCreateInfo* info, const VkAllocationCallbacks* allocator, VkImage* image) {
   const VkResult result = Null<TagCreateImage, PFN_vkCreateImage>::call(device, info, allocator, image);
-  if (result == VK_SUCCESS) owner(device).images[*image] = {image_bytes(*info), kImageAlignment};
+  const bool lazy = owner(device).options.lazy_memory && (info->usage & VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT) != 0;
+  if (result == VK_SUCCESS) owner(device).images[*image] = {image_bytes(*info), kImageAlignment, lazy ? 0b111u : 0b11u};
   return result;
 }
 
 VkResult VKAPI_CALL create_buffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
   const VkResult result = Null<TagCreateBuffer, PFN_vkCreateBuffer>::call(device, info, allocator, buffer);
-  if (result == VK_SUCCESS) owner(device).buffers[*buffer] = {info->size, kBufferAlignment};
+  if (result == VK_SUCCESS) owner(device).buffers[*buffer] = {info->size, kBufferAlignment, 0b11};
   return result;
 }
 
 void VKAPI_CALL image_requirements(VkDevice device, VkImage image, VkMemoryRequirements* out) { *out = requirements(owner(device).images[image]); }
+void VKAPI_CALL image_requirements_2(VkDevice device, const VkImageMemoryRequirementsInfo2* info, VkMemoryRequirements2* out) {
+  image_requirements(device, info->image, &out->memoryRequirements);
+  auto* next = static_cast<VkBaseOutStructure*>(out->pNext);
+  if (next == nullptr || next->sType != VK_STRUCTURE_TYPE_MEMORY_DEDICATED_REQUIREMENTS) return;
+  const NullOptions& options = owner(device).options;
+  auto* dedicated = reinterpret_cast<VkMemoryDedicatedRequirements*>(next);
+  dedicated->requiresDedicatedAllocation = options.requires_dedicated;
+  dedicated->prefersDedicatedAllocation = options.requires_dedicated || options.prefers_dedicated;
+}
 void VKAPI_CALL buffer_requirements(VkDevice device, VkBuffer buffer, VkMemoryRequirements* out) {
   *out = requirements(owner(device).buffers[buffer]);
 }
@@ -340,6 +350,7 @@ void fill_functions(DeviceFunctions& vk) {
   vk.CreateImage = create_image;
   vk.CreateBuffer = create_buffer;
   vk.GetImageMemoryRequirements = image_requirements;
+  vk.GetImageMemoryRequirements2 = image_requirements_2;
   vk.GetBufferMemoryRequirements = buffer_requirements;
   vk.AllocateMemory = allocate_memory;
   vk.MapMemory = map_memory;
@@ -356,7 +367,7 @@ void fill_functions(DeviceFunctions& vk) {
   vk.GetPhysicalDeviceImageFormatProperties = image_format_properties;
 }
 
-void fill_description(Device::State& state) {
+void fill_description(Device::State& state, const NullOptions& options) {
   state.name = "null";
   state.pipeline_statistics = true;
   state.sampler_anisotropy = state.multi_draw_indirect = true;
@@ -370,9 +381,10 @@ void fill_description(Device::State& state) {
   state.limits.maxPushConstantsSize = 128;
   state.limits.maxSamplerAnisotropy = 16;
   state.limits.maxUniformBufferRange = 65536;
-  state.memory.memoryTypeCount = 2;
+  state.memory.memoryTypeCount = options.lazy_memory ? 3 : 2;
   state.memory.memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
   state.memory.memoryTypes[1] = {VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, 0};
+  state.memory.memoryTypes[2] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT, 0};
   state.memory.memoryHeapCount = 1;
   state.memory.memoryHeaps[0] = {1ull << 36, VK_MEMORY_HEAP_DEVICE_LOCAL_BIT};
 }
@@ -408,7 +420,7 @@ Device Device::null(std::string* log, const NullOptions& options) {
   state->physical = reinterpret_cast<VkPhysicalDevice>(null);
   state->instance = reinterpret_cast<VkInstance>(null);
   fill_functions(state->vk);
-  fill_description(*state);
+  fill_description(*state, options);
   for (const Capability capability : options.capabilities) state->capabilities |= bit(capability);
   return Device(std::move(state));
 }

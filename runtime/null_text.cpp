@@ -123,6 +123,9 @@ void print_struct(NullLine& line, const VkImageViewCreateInfo& info) {
 
 void print_struct(NullLine& line, const VkMemoryAllocateInfo& info) {
   pair(line, "bytes ", info.allocationSize), pair(line, " type ", info.memoryTypeIndex);
+  const auto* next = static_cast<const VkBaseInStructure*>(info.pNext);
+  if (next != nullptr && next->sType == VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO)
+    line.text(" for "), line.handle(reinterpret_cast<const VkMemoryDedicatedAllocateInfo*>(next)->image);
 }
 
 void print_struct(NullLine& line, const VkSubmitInfo2& info) {

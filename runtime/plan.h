@@ -91,6 +91,7 @@ struct Resource {
   bool is_surface = false;
   bool no_alias = false;
   bool concurrent = false;                             // shared by the families of all queues that use it; no ownership transfers
+  bool lazy = false;                                   // a transient attachment that no rendering loads or stores: it may live on the chip
   Index import_slot = kNone;                           // position in the generated Imports
   uint64_t estimated_bytes = 0, estimated_alignment = 1, estimated_offset = 0;  // at the initial extents, by the device profile
   uint32_t line = 0;                                   // in the file that declares it

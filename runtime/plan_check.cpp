@@ -77,6 +77,9 @@ void check_resource(const Resource& resource, size_t i, Checker& c) {
   c.that(resource.lifetime != Lifetime::imported || resource.import_slot < 4096, "resource", i, "import slot");
   c.that(resource.lifetime != Lifetime::readback || resource.kind == ResourceKind::buffer, "resource", i, "only buffers are read back");
   c.that(resource.copies >= 1 && resource.copies <= 64, "resource", i, "copies");
+  constexpr uint32_t kAttachments = 0x10 | 0x20;  // colour; depth and stencil
+  const bool attachment = resource.kind == ResourceKind::image && resource.usage != 0 && (resource.usage & ~kAttachments) == 0;
+  c.that(!resource.lazy || (attachment && resource.lifetime == Lifetime::transient), "resource", i, "lazy, and no transient that is only an attachment");
   if (resource.kind != ResourceKind::image) return;
   c.that(resource.mips >= 1 && resource.mips <= 16 && resource.layers >= 1 && resource.layers <= 65536, "resource", i, "mips or layers");
   c.that(resource.samples >= 1 && resource.samples <= 64 && (resource.samples & (resource.samples - 1)) == 0, "resource", i, "samples");

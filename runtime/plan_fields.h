@@ -56,7 +56,7 @@ RG_PLAN_ROW(Expr, op, a, b, value);
 RG_PLAN_ROW(Extent, name, axes, initial, maximum, minimum);
 RG_PLAN_ROW(ClearValue, word);
 RG_PLAN_ROW(Resource, name, kind, lifetime, dimension, format, width, height, depth, mips, layers, samples, aspects, usage, mutable_format, bytes,
-            stride, layout, copies, init, init_value, is_surface, no_alias, concurrent, import_slot, estimated_bytes, estimated_alignment, estimated_offset,
+            stride, layout, copies, init, init_value, is_surface, no_alias, concurrent, lazy, import_slot, estimated_bytes, estimated_alignment, estimated_offset,
             line, file);
 RG_PLAN_ROW(Ref, resource, age);
 RG_PLAN_ROW(Range, aspects, mip, mips, layer, layers);

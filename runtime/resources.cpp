@@ -58,11 +58,17 @@ Status check_image_limits(const Context& context, const Resource& resource, cons
   return Done{};
 }
 
+bool has_lazy_memory(const Device::State& device) {
+  return find_memory_type(device, UINT32_MAX, VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT, 0) != UINT32_MAX;
+}
+
+// Only attachments may live on the chip, so whatever else tools do with images keeps them in memory.
 VkImageUsageFlags image_usage(const Context& context, const Resource& resource) {
   VkImageUsageFlags usage = resource.usage;
   const bool cleared = resource.init == InitKind::clear || (context.poison && resource.lifetime == Lifetime::transient);
   if (cleared) usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
   if (context.debug_readback || usage == 0) usage |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+  if (resource.lazy && usage == resource.usage && has_lazy_memory(context.device)) usage |= VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT;
   return usage;
 }
 

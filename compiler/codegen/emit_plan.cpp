@@ -150,7 +150,8 @@ void PlanEmitter::resources() {
     row.nested("init_value", clear_value(r.init_value))
         .flag("is_surface", r.is_surface)
         .flag("no_alias", r.no_alias)
-        .flag("concurrent", r.concurrent);
+        .flag("concurrent", r.concurrent)
+        .flag("lazy", r.lazy);
     index(row, "import_slot", r.import_slot);
     row.number("estimated_bytes", r.estimated_bytes)
         .number("estimated_alignment", r.estimated_alignment, 1)

@@ -77,6 +77,9 @@ std::vector<Block> blocks_of(const compiler::CompileResult& result) {
       std::string text = facts_text(facts);
       for (const Pass& pass : plan.plan.passes)
         text += fmt::format("pass {}{}\n", pass.name, pass.queue ? fmt::format("  on queue {}", pass.queue) : "");
+      for (const compiler::Fold& fold : result.folded)
+        for (const compiler::Fold::Part& part : fold.parts)
+          if (fold.graph == graph.graph) text += fmt::format("pass {}  folded into {}\n", fold.pass, part.into);
       blocks.push_back({facts.variant.empty() ? fmt::format("graph {}", facts.graph) : fmt::format("graph {} with {}", facts.graph, facts.variant),
                         text + barriers_text(plan.plan)});
     }

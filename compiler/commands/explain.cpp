@@ -40,6 +40,10 @@ std::string declared(const compiler::CompileResult& result, const dsl::Graph& gr
   std::string text = used_techniques(result, graph, name);
   for (const dsl::Pass& pass : graph.passes)
     if (names(name, pass.name)) text += fmt::format("pass {}  {}\n", pass.name, place_text(result.sources, pass.span));
+  for (const compiler::Fold& fold : result.folded)  // no passes any more
+    for (const dsl::Pass& pass : result.unfolded.graphs[fold.graph].passes)
+      if (fold.pass == pass.name && names(name, pass.name) && graph.name == result.unfolded.graphs[fold.graph].name)
+        text += fmt::format("pass {}  {}\n", pass.name, place_text(result.sources, pass.span));
   for (const dsl::Resource& resource : graph.resources)
     if (names(name, resource.name))
       text += fmt::format("{}  {}  {}\n", resource.name, resource_kind_text(result.program, resource), place_text(result.sources, resource.span));

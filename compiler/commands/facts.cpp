@@ -154,6 +154,7 @@ Facts find_facts(const dsl::Program& program, const compiler::CompiledGraph& gra
   facts.heap_bytes = plan.heap_bytes;
   facts.unaliased_bytes = plan.unaliased_bytes;
   facts.lower_bound_bytes = plan.lower_bound_bytes;
+  facts.lazy_bytes = plan.lazy_bytes, facts.heap_beside_lazy_bytes = plan.heap_beside_lazy_bytes;
   count_barriers(plan.plan, facts);
   facts.submits = plan.plan.batches.size();
   facts.waits = plan.plan.waits.size();
@@ -180,7 +181,12 @@ nlohmann::ordered_json to_json(const Facts& facts) {
             {"culled", facts.passes_culled},
             {"raster", facts.passes_raster},
             {"renderings", facts.renderings}}},
-          {"memory", {{"heap_bytes", facts.heap_bytes}, {"unaliased_bytes", facts.unaliased_bytes}, {"lower_bound_bytes", facts.lower_bound_bytes}}},
+          {"memory",
+           {{"heap_bytes", facts.heap_bytes},
+            {"unaliased_bytes", facts.unaliased_bytes},
+            {"lower_bound_bytes", facts.lower_bound_bytes},
+            {"lazy_bytes", facts.lazy_bytes},
+            {"heap_beside_lazy_bytes", facts.heap_beside_lazy_bytes}}},
           {"barriers",
            {{"calls", facts.barrier_calls},
             {"barriers", facts.barriers},

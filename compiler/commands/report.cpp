@@ -22,6 +22,9 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
     text += fmt::format("              {} in {}\n", counted(facts.passes_raster, "raster pass", "raster passes"), counted(facts.renderings, "rendering"));
   text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
                       mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
+  if (facts.lazy_bytes > 0)
+    text += fmt::format("              {} where the device has lazily allocated memory, for {} that no rendering loads or stores\n", mib(facts.heap_beside_lazy_bytes),
+                        mib(facts.lazy_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
   text += fmt::format("  order     {}; {} pairs of passes are ordered, {} have to be\n", facts.order.method, facts.order.ordered_pairs,
                       facts.order.needed_pairs);
@@ -82,6 +85,36 @@ nlohmann::ordered_json not_fused_json(const compiler::CompileResult& result) {
   return rows;
 }
 
+// Passes that renderings took in.
+std::string folded_text(const compiler::CompileResult& result, size_t graph) {
+  std::string text;
+  for (const compiler::Fold& fold : result.folded)
+    for (const compiler::Fold::Part& part : fold.parts)
+      if (fold.graph.value == graph)
+        text += fmt::format("  folded    {}: {} {}\n", fold.pass, part.into, part.target.empty() ? "clears " + part.image : "resolves " + part.image + " to " + part.target);
+  return text;
+}
+
+nlohmann::ordered_json folded_json(const compiler::CompileResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const compiler::Fold& fold : result.folded)
+    for (const compiler::Fold::Part& part : fold.parts)
+      rows.push_back({{"graph", result.program.graphs[fold.graph].name},
+                      {"pass", fold.pass},
+                      {"into", part.into},
+                      {"as", part.target.empty() ? "clear" : "resolve"},
+                      {"image", part.image},
+                      {"target", part.target}});
+  return rows;
+}
+
+nlohmann::ordered_json not_folded_json(const compiler::CompileResult& result) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const compiler::FoldRefusal& refusal : result.not_folded)
+    rows.push_back({{"graph", result.program.graphs[refusal.graph].name}, {"pass", refusal.pass}, {"reason", refusal.reason}});
+  return rows;
+}
+
 // Variants that were built, and why the others were not.
 std::string variants_text(const compiler::ShaderBundle& bundle) {
   std::string text;
@@ -133,6 +166,8 @@ nlohmann::ordered_json json_of(const std::vector<Facts>& all, const compiler::Co
   json["shader_variants"] = variants_json(result.graphs);
   json["fused"] = fused_json(result);
   json["not_fused"] = not_fused_json(result);
+  json["folded"] = folded_json(result);
+  json["not_folded"] = not_folded_json(result);
   return json;
 }
 
@@ -152,7 +187,7 @@ int report(const ReportOptions& options) {
       all.push_back(find_facts(result->program, graph, plan));
       if (!options.json) print(text_of(all.back(), plan.plan));
     }
-    if (!options.json) print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + variants_text(graph.shaders));
+    if (!options.json) print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + folded_text(*result, graph.graph.value) + variants_text(graph.shaders));
   }
   if (!options.json) print(merged_text(result->program));
   if (options.json) print(json_of(all, *result).dump(2) + "\n");

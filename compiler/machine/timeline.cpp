@@ -129,8 +129,9 @@ struct Unroller {
     const bool drops = needs_contents(pass, access) && !slice_only && attachment.load != LoadOp::load;
     return drops || (clears && attachment.load != LoadOp::clear);
   }
-  static bool drops_after(const dsl::Access& access, const Attachment& attachment) {
-    return access.mode != dsl::Mode::read && attachment.store != StoreOp::store;
+  // What may live on the chip is there no longer than a rendering, whatever that says.
+  bool drops_after(const dsl::Access& access, const Attachment& attachment) const {
+    return access.mode != dsl::Mode::read && (attachment.store != StoreOp::store || in.plan.resources[attachment.ref.resource].lazy);
   }
   static bool rewrites(const dsl::Access& access, const Attachment& attachment) {
     return access.mode == dsl::Mode::read &&

@@ -59,6 +59,7 @@ class Mutator {
     each("ownership", plan_.image_barriers, [&](Index i) { transfer(&Plan::image_barriers, i); });
     each("ownership", plan_.buffer_barriers, [&](Index i) { transfer(&Plan::buffer_barriers, i); });
     each("ownership", plan_.resources, [&](Index i) { sharing(i); });
+    each("lazy", plan_.attachments, [&](Index i) { lazy(i); });
     return std::move(report_);
   }
 
@@ -381,6 +382,17 @@ class Mutator {
     change(
         &Plan::resources, at, [](Resource& r) { r.concurrent = false; }, std::string(plan_.resources[at].name) + " not shared",
         "shared by one family only");
+  }
+
+  // ---- memory that holds nothing between renderings ---------------------------------------------------------------------------
+
+  void lazy(Index at) {
+    const Index resource = plan_.attachments[at].ref.resource;
+    const auto same = [&](const Attachment& row) { return row.ref.resource == resource; };
+    const bool first = std::find_if(plan_.attachments.begin(), plan_.attachments.end(), same) == plan_.attachments.begin() + at;
+    if (!first || plan_.resources[resource].lazy || plan_.resources[resource].lifetime != Lifetime::transient) return;
+    change(
+        &Plan::resources, resource, [](Resource& r) { r.lazy = true; }, std::string(plan_.resources[resource].name) + " in lazily allocated memory");
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------

@@ -258,6 +258,29 @@ void check_feedback(const Usage& usage, const PassNode& node) {
     }
 }
 
+// Memory that is there only while a rendering is: nobody may expect anything of it before or after.
+void check_lazy(const Model& model, Report& report) {
+  const Input& input = *model.input;
+  const auto refuse = [&](Index r, const std::string& text) {
+    report.add({Hazard::lost_contents, model.resource(r).name, "", "", "`" + model.resource(r).name + "` is in lazily allocated memory, and " + text});
+  };
+  for (Index r = 0; r < input.plan.resources.size(); ++r) {
+    if (!input.plan.resources[r].lazy) continue;
+    const dsl::Resource& source = input.graph.resources.rows[input.program_resource[r]];
+    if (source.kind != dsl::ResourceKind::image || source.lifetime != dsl::Lifetime::transient || source.is_output) refuse(r, "is no image that only this frame sees");
+    for (const Attachment& row : input.plan.attachments) {
+      const bool loads = row.load == LoadOp::load, stores = row.store == StoreOp::store;
+      if (row.ref.resource == r && (loads || stores)) refuse(r, loads ? "a rendering loads it" : "a rendering stores it");
+      if (row.resolve.resource == r) refuse(r, "a rendering resolves to it");
+    }
+    for (const PassNode& node : model.passes)
+      for (const dsl::Access& access : model.pass(node.plan_pass).accesses) {
+        const bool drawn = access.role == dsl::Role::color || access.role == dsl::Role::depth || access.role == dsl::Role::depth_readonly || access.role == dsl::Role::stencil;
+        if (access.resource.value == input.program_resource[r] && !drawn) refuse(r, "`" + model.pass_name(node.plan_pass) + "` uses it otherwise than as an attachment");
+      }
+  }
+}
+
 void check_declared_order(const Model& model, Report& report) {
   std::vector<uint32_t> position(model.input->graph.passes.size(), kNone);
   for (uint32_t s = 0; s < model.steps.size(); ++s)
@@ -311,6 +334,7 @@ void check_usage(const Model& model, Report& report) {
     check_guards(usage, node);
     check_feedback(usage, node);
   }
+  check_lazy(model, report);
   check_declared_order(model, report);
   check_kept(model, report);
 }

@@ -41,14 +41,15 @@ TEST(Facts, CountsWhatAPlanHolds) {
   frame.plan.image_barriers.resize(2);
   frame.plan.memory_barriers.push_back({stage::all_commands, 0, stage::host, access::host_read});
   frame.plan.batches.resize(1);
-  frame.heap_bytes = 10, frame.unaliased_bytes = 20, frame.lower_bound_bytes = 9;
+  frame.heap_bytes = 10, frame.unaliased_bytes = 20, frame.lower_bound_bytes = 9, frame.lazy_bytes = 4, frame.heap_beside_lazy_bytes = 7;
   frame.phase_ms = {{"cull", 1.5}, {"order", 2.5}};
   compiler::CompiledGraph graph;
   graph.graph = dsl::GraphId{0};
   graph.plans.push_back(frame);
   const nlohmann::ordered_json json = to_json(find_facts(program, graph, graph.plans[0]));
   EXPECT_EQ(json["passes"], (nlohmann::ordered_json{{"live", 3}, {"culled", 1}, {"raster", 0}, {"renderings", 0}}));
-  EXPECT_EQ(json["memory"], (nlohmann::ordered_json{{"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}}));
+  EXPECT_EQ(json["memory"], (nlohmann::ordered_json{
+                                {"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}, {"lazy_bytes", 4}, {"heap_beside_lazy_bytes", 7}}));
   EXPECT_EQ(json["barriers"]["calls"], 2);
   EXPECT_EQ(json["barriers"]["barriers"], 3);
   EXPECT_EQ(json["barriers"]["all_commands"], 1);

@@ -13,9 +13,10 @@ dsl::ReadSource reader_of(const Files& files) {
   };
 }
 
-compiler::CompileResult compile_files(const Files& files) {
+compiler::CompileResult compile_files(const Files& files, const compiler::PlanOptions& plan) {
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;
+  options.plan = plan;
   dsl::Diagnostics diagnostics;
   compiler::CompileResult result = compiler::compile("frame.rg", reader_of(files), options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << dsl::print(diagnostics, result.sources, false);

@@ -13,6 +13,6 @@ using Files = std::map<std::string, std::string>;
 dsl::ReadSource reader_of(const Files& files);  // `files` outlives it
 
 // Of `frame.rg`; an error is a failure of the test.
-compiler::CompileResult compile_files(const Files& files);
+compiler::CompileResult compile_files(const Files& files, const compiler::PlanOptions& plan = {});
 
 }  // namespace rg::test

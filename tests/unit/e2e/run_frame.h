@@ -20,13 +20,14 @@ inline const std::string kShow = R"(
 inline constexpr const char* kShowShader =
     "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(seen, at, 0).x; }";
 
-// The checker finds nothing wrong with any plan.
+// The checker finds nothing wrong with any plan, nor with what became of the program before.
 void expect_proved(const compiler::CompileResult& result);
 
 // The words of the one buffer that is read back, after as many frames; none where something failed. No value where there is no device.
 // With `validate`, what Khronos validation reports fails the test.
 // `without`: what the device has and shall not use.
-std::optional<Words> run(const Files& files, uint32_t frames = 1, bool validate = false, std::vector<Capability> without = {});
+std::optional<Words> run(const Files& files, uint32_t frames = 1, bool validate = false, std::vector<Capability> without = {},
+                         const compiler::PlanOptions& plan = {});
 
 // Of the device that `run` runs on; false where there is none.
 bool device_has(Capability capability);

@@ -244,7 +244,7 @@ TEST(MergedFog, IsProvedBesideTheChain) {
   for (const compiler::FusedKernel& kernel : lab.result().fused) kernels.push_back({kernel.pass, kernel.members});
   ASSERT_EQ(kernels.size(), 2u);
   for (const verify::Finding& finding :
-       verify::verify_fusion(lab.result().written, lab.result().program, dsl::GraphId{0}, frame.configuration, kernels))
+       verify::verify_fusion(lab.result().written, lab.result().unfolded, dsl::GraphId{0}, frame.configuration, kernels))
     ADD_FAILURE() << finding.text;
 }
 

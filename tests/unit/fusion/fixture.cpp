@@ -44,7 +44,7 @@ void prove(const compiler::CompileResult& result) {
     for (const compiler::FramePlan& frame : graph.plans) {
       auto findings =
           verify::verify(result.program, graph.graph, frame.configuration, frame.plan.view(), frame.plan.program_pass, frame.plan.program_resource);
-      for (verify::Finding& finding : verify::verify_fusion(result.written, result.program, graph.graph, frame.configuration, kernels))
+      for (verify::Finding& finding : verify::verify_fusion(result.written, result.unfolded, graph.graph, frame.configuration, kernels))
         findings.push_back(std::move(finding));
       for (const verify::Finding& finding : findings) ADD_FAILURE() << verify::name(finding.hazard) << ": " << finding.text;
     }

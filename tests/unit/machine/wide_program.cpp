@@ -15,20 +15,21 @@ class Generator {
 
   std::string make(uint32_t pieces) {
     for (uint32_t i = 0; i < pieces; ++i) add_piece(i);
+    const std::string end = finish(), down = queue();
     return "module wide\nextent view = runtime(64, 32) max(128, 64)\nfeature rich: bool\ncondition sometimes\ncondition rarely\n"
            "interface Scene {\n  table: buffer u32[64] ready as storage in compute\n  maps: image rgba8 64x64 ready as sampled in fragment\n}\n"
            "technique halve(image source, inout image target) {\n  image half : rgba16f source / 2\n"
            "  pass down : compute" +
-           queue() +
-           " { read source as sampled  write half as storage }\n"
+           down + " { read source as sampled  write half as storage }\n"
            "  pass up : compute { read half as sampled  update target as storage }\n}\n"
            "graph frame(scene: Scene, surface backbuffer: rgba8 view) {\n  buffer found : u32[64] readback\n" +
-           text_ + finish() + "}\n";
+           text_ + end + "}\n";
   }
 
  private:
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(random_() % n); }
   bool chance(uint32_t one_in) { return below(one_in) == 0; }
+  // Each in a statement of its own, so that a seed gives the same program whichever compiler orders arguments.
   std::string queue() { return chance(2) ? "" : chance(4) ? " queue compute" : " queue compute may"; }
   std::string copies() { return chance(2) ? "" : chance(2) ? " queue transfer may" : " queue compute may"; }
   void line(const std::string& text) { text_ += "  " + text + "\n"; }
@@ -84,7 +85,8 @@ class Generator {
 
   void add_chain(uint32_t i) {
     line(fmt::format("image c{} : rgba16f view mips 6{}", i, chance(4) ? " no alias" : ""));
-    line(fmt::format("pass c{}_first : compute{} {{ write c{}.mip(0) as storage{} }}", i, queue(), i, some_reads("compute")));
+    const std::string reads = some_reads("compute"), on = queue();
+    line(fmt::format("pass c{}_first : compute{} {{ write c{}.mip(0) as storage{} }}", i, on, i, reads));
     line(
         fmt::format("for mip in 1..mips(c{}) {{ pass c{}_down[mip] : compute{} {{ read source = c{}.mip(mip - 1) as sampled  write target = "
                     "c{}.mip(mip) as storage }} }}",
@@ -107,7 +109,8 @@ class Generator {
     line(
         fmt::format("pass a{}_fill : {} }}", i,
                     chance(2) ? fmt::format("transfer{} {{ fill a{} 1", copies(), i) : fmt::format("compute{} {{ write a{} as storage", queue(), i)));
-    line(fmt::format("pass a{}_go : compute{} {{ read args = a{} as indirect{} update scratch as storage }}", i, queue(), i, some_reads("compute")));
+    const std::string reads = some_reads("compute"), on = queue();
+    line(fmt::format("pass a{}_go : compute{} {{ read args = a{} as indirect{} update scratch as storage }}", i, on, i, reads));
     need_scratch();
     buffer(fmt::format("a{}", i));
   }
@@ -124,16 +127,17 @@ class Generator {
   void add_feature() {
     std::string name;
     if (!any(buffers_, name)) return;
+    const std::string copying = copies(), computing = queue();
     line(fmt::format("when rich {{ pass f{} : compute{} {{ update {} as storage }} }} else {{ pass g{} : transfer{} {{ fill {} 3 }} }}", count_,
-                     queue(), name, count_, copies(), name));
+                     computing, name, count_, copying, name));
     ++count_;
   }
 
   void add_condition() {
     std::string name;
     if (!any(chance(2) ? buffers_ : images_, name)) return;
-    line(
-        fmt::format("if host {} {{ pass i{} : compute{} {{ update {} as storage }} }}", chance(2) ? "sometimes" : "rarely", count_++, queue(), name));
+    const std::string on = queue(), when = chance(2) ? "sometimes" : "rarely";
+    line(fmt::format("if host {} {{ pass i{} : compute{} {{ update {} as storage }} }}", when, count_++, on, name));
   }
 
   void add_copies(uint32_t i) {
@@ -148,7 +152,14 @@ class Generator {
   void add_resolve(uint32_t i) {
     line(fmt::format("image m{} : rgba16f view samples 4", i));
     line(fmt::format("image m{}_flat : rgba16f view", i));
-    line(fmt::format("pass m{}_draw : raster {{ color m{} clear 0  resolve m{} -> m{}_flat{} }}", i, i, i, i, some_reads("fragment")));
+    const std::string reads = some_reads("fragment");
+    if (chance(2)) {
+      line(fmt::format("pass m{}_draw : raster {{ color m{} clear 0  resolve m{} -> m{}_flat{} }}", i, i, i, i, reads));
+    } else {  // passes of their own, which the rendering may take in
+      line(fmt::format("pass m{}_wipe : transfer{} {{ clear m{} 0 }}", i, chance(4) ? " queue compute may" : "", i));
+      line(fmt::format("pass m{}_draw : raster {{ color m{}{} }}", i, i, reads));
+      line(fmt::format("pass m{}_resolve : transfer {{ resolve m{} -> m{}_flat }}", i, i, i));
+    }
     image(fmt::format("m{}_flat", i));
   }
 
@@ -160,14 +171,15 @@ class Generator {
 
   void add_history(uint32_t i) {
     line(fmt::format("image p{} : rgba16f view history {} init clear 0", i, 1 + below(2)));
-    line(fmt::format("pass p{}_step : compute{} {{ read was = p{}.prev(1) as sampled  write p{} as storage{} }}", i, queue(), i, i,
-                     some_reads("compute")));
+    const std::string reads = some_reads("compute"), on = queue();
+    line(fmt::format("pass p{}_step : compute{} {{ read was = p{}.prev(1) as sampled  write p{} as storage{} }}", i, on, i, i, reads));
     image(fmt::format("p{}", i));
   }
 
   void add_halves(uint32_t i) {
     line(fmt::format("buffer b{} : u32[128]{}", i, chance(4) ? " persistent init clear 0" : ""));
-    line(fmt::format("pass b{}_low : compute{} {{ write b{}.bytes(0, 256) as storage{} }}", i, queue(), i, some_reads("compute")));
+    const std::string reads = some_reads("compute"), on = queue();
+    line(fmt::format("pass b{}_low : compute{} {{ write b{}.bytes(0, 256) as storage{} }}", i, on, i, reads));
     line(fmt::format("pass b{}_high : {} }}", i,
                      chance(2) ? fmt::format("compute{} {{ write b{}.bytes(256, 256) as storage", queue(), i)
                                : fmt::format("raster {{ write b{}.bytes(256, 256) as storage in fragment covers  color backbuffer clear 0", i)));
@@ -176,7 +188,8 @@ class Generator {
 
   void add_host(uint32_t i) {
     line(fmt::format("buffer o{} : u32[64] output", i));
-    line(fmt::format("pass o{}_make : compute{} {{ write o{} as storage{}{} }}", i, queue(), i, some_reads("compute"), chance(4) ? "  keep" : ""));
+    const std::string keep = chance(4) ? "  keep" : "", reads = some_reads("compute"), on = queue();
+    line(fmt::format("pass o{}_make : compute{} {{ write o{} as storage{}{} }}", i, on, i, reads, keep));
     buffer(fmt::format("o{}", i));
   }
 
@@ -185,7 +198,8 @@ class Generator {
     line(fmt::format("image q{} : rgba16f view", i));
     line(fmt::format("buffer q{}_b : u32[64]", i));
     line(fmt::format("pass q{}_one : compute queue compute may {{ write q{} as storage }}", i, i));
-    line(fmt::format("pass q{}_two : compute{} {{ write q{}_b as storage{} }}", i, queue(), i, chance(2) ? fmt::format("  after q{}_one", i) : ""));
+    const std::string after = chance(2) ? fmt::format("  after q{}_one", i) : "", on = queue();
+    line(fmt::format("pass q{}_two : compute{} {{ write q{}_b as storage{} }}", i, on, i, after));
     image(fmt::format("q{}", i)), buffer(fmt::format("q{}_b", i));
   }
 

@@ -57,6 +57,30 @@ TEST(Memory, NoAliasResourcesKeepTheirBytes) {
   EXPECT_TRUE(frame.plan.resources[resource_named(frame.plan, "a")].no_alias);
 }
 
+// What renderings neither load nor store, once they are merged, and nobody else sees.
+std::string lazy_text(const FramePlan& frame) {
+  std::string text;
+  for (const Resource& resource : frame.plan.resources)
+    if (resource.lazy) text += std::string(resource.name) + " ";
+  return text;
+}
+TEST(Memory, AttachmentsOfOneRenderingMayLiveOnTheChip) {
+  const char* body =
+      "image many : rgba16f view samples 4\n image depth : d32f view samples 4\n image one : rgba16f view\n image map : d32f view\n image side : rgba16f view\n"
+      "pass opaque : raster { color many clear 0  depth depth clear 0  draw host {} }\n"
+      "pass glass : raster { color many  depth depth  resolve many -> one  draw host {} }\n"
+      "pass shadow : raster { depth map clear 0  draw host {} }\n"
+      "pass light : compute { read map as sampled  read one as sampled  write side as storage }\n"
+      "pass show : raster { read side as sampled in fragment  color backbuffer covers }\n";
+  const FramePlan frame = plan_of(body, {.reasons = true});
+  EXPECT_EQ(lazy_text(frame), "many depth ");
+  EXPECT_EQ(frame.lazy_bytes, 64u * 64 * 4 * (8 + 4));
+  EXPECT_LE(frame.heap_beside_lazy_bytes + frame.lazy_bytes, frame.unaliased_bytes);
+  EXPECT_LT(frame.heap_beside_lazy_bytes, frame.heap_bytes);
+  EXPECT_EQ(lazy_text(plan_of(body, {.merge = false})), "") << "stored by one, loaded by the next";
+  EXPECT_EQ(lazy_text(plan_of(body, {.no_discard = {"depth"}})), "many ");
+}
+
 TEST(Memory, HandOffWaitsForTheLastRealUsers) {
   const FramePlan frame = plan_of(kChain);
   const Plan plan = frame.plan.view();

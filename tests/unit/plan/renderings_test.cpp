@@ -90,21 +90,6 @@ TEST(Renderings, TheLastPassResolves) {
   EXPECT_EQ(attachment_of(plan.plan, "opaque", "many").store, StoreOp::dont_care);
 }
 
-TEST(Renderings, ClearsAndResolvesOfTheirOwnAreNamed) {
-  const auto text = [](const std::string& between, const std::string& draws) {
-    return "image many : rgba8 view samples 4\n image one : rgba8 view\n image other : rgba8 view\n pass wipe : transfer { clear many 0 }\n" + between +
-           "pass draw : raster { " + draws +
-           "  draw host {} }\n pass flatten : transfer { resolve many -> one }\n"
-           "pass show : raster { read one as sampled in fragment  color backbuffer covers  draw host {} }\n";
-  };
-  const FramePlan plan = plan_of(text("", "color many"));
-  EXPECT_NE(decision(plan, "wipe", "not folded").find("with `clear` there"), std::string::npos) << decision(plan, "wipe", "not folded");
-  EXPECT_NE(decision(plan, "flatten", "not folded").find("with `resolve` there"), std::string::npos) << decision(plan, "flatten", "not folded");
-  const char* look = "pass look : compute { read many as sampled  write other as storage }\n";
-  const FramePlan seen = plan_of(text(look, "color many  read other as sampled in fragment"));
-  EXPECT_EQ(decision(seen, "wipe", "not folded"), "none") << "somebody reads the clear";
-}
-
 TEST(Renderings, SwitchesKeepThemApart) {
   EXPECT_FALSE(merged(plan_of(world(kSame), {.merge = false})));
   EXPECT_FALSE(merged(plan_of(world(kSame), {.no_merge = {"props"}})));

@@ -110,6 +110,65 @@ TEST_F(Placement, TooLargeForTheDevice) {
   EXPECT_EQ(test::message(graph.resize(extents)), "image `color`: a side of 20000 texels; this device allows 16384");
 }
 
+// ---- memory of its own ----------------------------------------------------------------------------------------------
+
+// Allocations of a new instance: "bytes 65536 type 0".
+std::vector<std::string> allocations(Device& device, std::string& log, test::TestPlan& plan, MemoryReport& memory, const GraphOptions& options = {}) {
+  log.clear();
+  Result<GraphInstance> graph = GraphInstance::create(device, plan.view(), options);
+  if (!graph) ADD_FAILURE() << graph.error().message;
+  if (graph) memory = graph->memory();
+  std::vector<std::string> found;
+  for (const std::string& line : test::calls(log, "vkAllocateMemory ")) found.push_back(line.substr(17, line.find(" ->") - 17));
+  return found;
+}
+bool has(const std::vector<std::string>& rows, const std::string& row) { return std::find(rows.begin(), rows.end(), row) != rows.end(); }
+
+TEST_F(Placement, WhatMayLiveOnTheChipLeavesTheHeapWhereThatIs) {
+  test::Aliased t = test::aliased();
+  const Index chip = t.plan.image("chip", test::kRgba8, t.plan.constant(8), t.plan.constant(8), test::kColorAttachment);
+  t.plan.resources[chip].lazy = true;
+  Device tiled = Device::null(&log, {.lazy_memory = true});
+  MemoryReport memory;
+  EXPECT_TRUE(has(allocations(tiled, log, t.plan, memory), "bytes 65536 type 2"));
+  EXPECT_NE(log.find("usage 0x50"), std::string::npos) << "a transient colour attachment";
+  EXPECT_EQ(memory.heap_bytes, 65536u);
+  EXPECT_EQ(memory.lazy_bytes, 65536u);
+  EXPECT_FALSE(has(allocations(device, log, t.plan, memory), "bytes 65536 type 2"));
+  EXPECT_EQ(memory.heap_bytes, 131072u);
+  EXPECT_EQ(memory.lazy_bytes, 0u);
+  GraphOptions options;
+  options.poison = true;  // fills it, which no attachment could be
+  allocations(tiled, log, t.plan, memory, options);
+  EXPECT_EQ(memory.lazy_bytes, 0u);
+}
+
+TEST_F(Placement, DriversGetTheMemoryTheyRequire) {
+  test::Aliased t = test::aliased();
+  MemoryReport memory;
+  Device device = Device::null(&log, {.requires_dedicated = true});
+  const auto rows = allocations(device, log, t.plan, memory);
+  EXPECT_TRUE(has(rows, "bytes 65536 type 0 for image1") && has(rows, "bytes 65536 type 0 for image2"));
+  EXPECT_EQ(memory.heap_bytes, 131072u);
+}
+
+TEST_F(Placement, WhatDriversPreferGivesWayToSharing) {
+  test::Aliased t = test::aliased();
+  Device device = Device::null(&log, {.prefers_dedicated = true});
+  MemoryReport memory;
+  for (const std::string& row : allocations(device, log, t.plan, memory)) EXPECT_EQ(row.find(" for "), std::string::npos) << row;
+  EXPECT_EQ(memory.heap_bytes, 65536u);
+  t.plan.resources[t.b].no_alias = true;
+  const Index past = t.plan.image("past", test::kRgba8, t.plan.constant(8), t.plan.constant(8), test::kSampled);
+  t.plan.resources[past].lifetime = Lifetime::history, t.plan.resources[past].copies = 2;
+  Device fresh = Device::null(&log, {.prefers_dedicated = true});
+  const auto rows = allocations(fresh, log, t.plan, memory);
+  for (const char* image : {"2", "3", "4"}) EXPECT_TRUE(has(rows, std::string("bytes 65536 type 0 for image") + image)) << image;
+  EXPECT_FALSE(has(rows, "bytes 65536 type 0 for image1"));
+  EXPECT_EQ(memory.heap_bytes, 131072u);
+  EXPECT_EQ(memory.persistent_bytes, 131072u);
+}
+
 // ---- prologue -----------------------------------------------------------------------------------------------------
 
 TEST_F(Placement, PrologueClearsWhatTheFirstFrameReads) {

@@ -30,6 +30,7 @@ TEST(PlanCheck, NamesTheRow) {
   EXPECT_EQ(fault([](P& p) { p.resources[0].samples = 3; }), "plan `test`: resource 0: samples");
   EXPECT_EQ(fault([](P& p) { p.resources[0].lifetime = Lifetime::readback; }), "plan `test`: resource 0: only buffers are read back");
   EXPECT_EQ(fault([](P& p) { p.resources[0].lifetime = Lifetime::imported; }), "plan `test`: resource 0: import slot");
+  EXPECT_EQ(fault([](P& p) { p.resources[0].lazy = true; }), "plan `test`: resource 0: lazy, and no transient that is only an attachment");
   EXPECT_EQ(fault([](P& p) { p.groups[1].image_count = 9; }), "plan `test`: group 1: image barriers");
   EXPECT_EQ(fault([](P& p) { p.image_barriers[2].image.resource = 2; }), "plan `test`: image barrier 2: image");
   EXPECT_EQ(fault([](P& p) { p.buffer_barriers[0].buffer.resource = kNone; }), "plan `test`: buffer barrier 0: buffer");

@@ -26,13 +26,16 @@ SpectrumProblem random_problem(uint32_t seed, const Shape& shape) {
     problem.costs.work.features.push_back((1 + below(100)) / 60.0);
     problem.needs.push_back(shape.needs && f > 0 && below(3) == 0 ? Mask{1} << below(f) : 0);
   }
-  for (uint32_t f = 1; shape.pairs && f < shape.features; ++f)
-    problem.costs.work.pairs.emplace_back(Mask{1} << f | Mask{1} << below(f), (static_cast<double>(below(40)) - 15) / 80.0);
+  for (uint32_t f = 1; shape.pairs && f < shape.features; ++f) {
+    const double extra = (static_cast<double>(below(40)) - 15) / 80.0;
+    problem.costs.work.pairs.emplace_back(Mask{1} << f | Mask{1} << below(f), extra);
+  }
   problem.costs.registers = {20, std::vector<double>(shape.features, 6.0), {}};
   for (uint32_t i = 0; i < shape.masks; ++i) {
     Mask mask = static_cast<Mask>(random()) & static_cast<Mask>((uint64_t{1} << shape.features) - 1);
     if (below(2) == 0) mask &= static_cast<Mask>(random());
-    problem.histogram.push_back({mask, (1.0 + below(1000)) / (1.0 + below(20))});
+    const double many = 1.0 + below(1000), few = 1.0 + below(20);
+    problem.histogram.push_back({mask, many / few});
   }
   if (shape.cheaper_superset) problem.costs.measured = {{static_cast<Mask>((uint64_t{1} << shape.features) - 2), 0.5}};
   return problem;

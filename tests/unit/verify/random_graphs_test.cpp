@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <random>
 
+#include "compiler/fold_transfers.h"
 #include "compiler/machine/machine.h"
 #include "compiler/plan_frame.h"
+#include "compiler/verify/folding.h"
 #include "compiler/verify/mutate.h"
 #include "compiler/verify/verify.h"
 #include "dsl/print.h"
@@ -49,6 +51,18 @@ std::string findings_of(const Planned& planned, const VerifyOptions& options = {
   return text;
 }
 
+std::string findings_between(const dsl::Program& apart, const dsl::Program& folded) {
+  std::string text;
+  for (const Finding& finding : verify_folding(apart, folded, kGraph, {})) text += std::string(name(finding.hazard)) + ": " + finding.text + "\n";
+  return text;
+}
+dsl::Program with_other_clear(dsl::Program program, const compiler::Fold& fold) {
+  for (dsl::Pass& pass : program.graphs.rows[0].passes)
+    for (dsl::Access& access : pass.accesses)
+      if (pass.name == fold.parts[0].into && access.clear && program.graphs.rows[0].resources[access.resource].name == fold.parts[0].image) access.clear->f[0] += 1;
+  return program;
+}
+
 bool uses_several_queues(const PlanData& plan) {
   return std::any_of(plan.batches.begin(), plan.batches.end(), [&](const Batch& batch) { return batch.queue != plan.batches.front().queue; });
 }
@@ -89,6 +103,36 @@ TEST(RandomGraphs, RenderingsOfSeveralPassesAreProved) {
     for (const compiler::Decision& decision : planned.frame.decisions) merged += decision.what == "merged";
   }
   EXPECT_GT(merged, 100u);
+}
+
+// Renderings that clear and resolve in place of passes: the program means the same, its plan is right, and a clear of something else would be noticed.
+TEST(RandomGraphs, FoldedProgramsAreProved) {
+  size_t clears = 0, resolves = 0, refused = 0;
+  for (uint64_t seed = 0; seed < (is_long() ? 2000u : 160u); ++seed) {
+    RandomShape shape = shape_of_seed(seed);
+    shape.folds = true, shape.continues = seed % 2 == 0;
+    const dsl::Program apart = make_random_program(seed, shape);
+    const compiler::FoldResult folded = compiler::fold_transfers(apart, {});
+    ASSERT_EQ(findings_between(apart, folded.program), "") << "seed " << seed;
+    for (const compiler::Fold& fold : folded.folds) (fold.parts[0].target.empty() ? clears : resolves) += 1;
+    refused += folded.refusals.size();
+    compiler::PlanOptions options;
+    options.queues = kQueues[seed % 3];
+    const Planned planned{folded.program, compiler::plan_frame(folded.program, kGraph, {}, options)};
+    VerifyOptions verify;
+    verify.irredundancy = seed % 4 == 0;
+    ASSERT_EQ(findings_of(planned, verify), "") << "seed " << seed;
+    if (seed % 8 == 0) {
+      ASSERT_FALSE(misbehaves(planned, planned.frame.plan.view())) << "seed " << seed;
+    }
+    for (const compiler::Fold& fold : folded.folds)
+      if (fold.parts[0].target.empty()) {
+        ASSERT_NE(findings_between(apart, with_other_clear(folded.program, fold)), "") << "seed " << seed << ", " << fold.pass;
+      }
+  }
+  EXPECT_GT(clears, 50u);
+  EXPECT_GT(resolves, 50u);
+  EXPECT_GT(refused, 50u);
 }
 
 // Every switch, on every program, leaves the plan right.

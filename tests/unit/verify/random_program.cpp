@@ -50,6 +50,8 @@ class Generator {
     add_resource(surface);
     for (uint32_t i = 0; i < shape_.images; ++i) declare_image(i);
     for (uint32_t i = 0; i < shape_.buffers; ++i) declare_buffer(i);
+    shared_ = static_cast<uint32_t>(graph_.resources.size());
+    for (uint32_t i = 0; i < 2 && shape_.folds; ++i) declare_samples(i);
   }
 
   Resource image_row(const std::string& name, Format format, int64_t divisor) {
@@ -62,11 +64,21 @@ class Generator {
 
   void declare_image(uint32_t i) {
     constexpr Format kFormats[] = {Format::rgba16f, Format::rgba16f, Format::r32ui, Format::d32f, Format::d32f_s8};
-    Resource row = image_row("i" + std::to_string(i), kFormats[below(5)], 1 + below(3));
+    const uint32_t divisor = 1 + below(3);
+    const Format format = kFormats[below(5)];
+    Resource row = image_row("i" + std::to_string(i), format, divisor);
     if (row.format == Format::rgba16f || row.format == Format::r32ui) row.mips = 1 + below(4);
     row.layers = one_in(3) ? 2 + below(3) : 1;
     keep_some(row, i);
     add_resource(row);
+  }
+
+  // An image of several samples, and the one it is resolved to; nothing else uses the first.
+  void declare_samples(uint32_t i) {
+    Resource one = image_row("s" + std::to_string(i), Format::rgba16f, 1), many = one;
+    many.name = "m" + std::to_string(i), many.samples = 4;
+    add_resource(one);
+    add_resource(many);
   }
 
   void declare_buffer(uint32_t i) {
@@ -113,7 +125,7 @@ class Generator {
   const Resource& row(uint32_t r) const { return graph_.resources.rows[r]; }
   bool is_image(uint32_t r) const { return row(r).kind == ResourceKind::image; }
   bool is_depth(uint32_t r) const { return is_image(r) && (row(r).format == Format::d32f || row(r).format == Format::d32f_s8); }
-  uint32_t any_resource() { return below(static_cast<uint32_t>(graph_.resources.size())); }
+  uint32_t any_resource() { return below(shared_); }
 
   // All of a buffer, or one half where its size is known.
   Range any_bytes(uint32_t r) {
@@ -222,14 +234,73 @@ class Generator {
   }
 
   void add_pass() {
+    if (shape_.folds && one_in(5)) return add_samples();
     pass_ = {};
     pass_.name = "p" + std::to_string(graph_.passes.size()), pass_.module = "random";
     if (one_in(5) && shape_.conditions > 0) pass_.conditions.push_back(ConditionId{size_t{below(shape_.conditions)}});
     const uint32_t kind = below(6);
     const bool made = kind < 3 ? add_compute() : kind < 5 ? add_raster() : add_transfer();
     if (!made) return;
+    if (shape_.folds) wipe_some();
     choose_queue();
     if (one_in(10) && graph_.passes.size() > 0) pass_.after.push_back(PassId{size_t{below(static_cast<uint32_t>(graph_.passes.size()))}});
+    graph_.passes.add(pass_);
+  }
+
+  // A pass in front of this one that clears what it loads, or something else of the same image.
+  void wipe_some() {
+    for (const Access& drawn : pass_.accesses) {
+      if (drawn.mode != Mode::update || (drawn.role != Role::color && drawn.role != Role::depth) || one_in(3)) continue;
+      Pass wipe;
+      wipe.name = "wipe" + std::to_string(graph_.passes.size()), wipe.module = "random";
+      wipe.kind = PassKind::transfer;
+      if (!one_in(6)) wipe.conditions = pass_.conditions;
+      wipe.mip_limits = pass_.mip_limits;
+      Access cleared = drawn;
+      cleared.role = Role::clear_dst, cleared.mode = Mode::write, cleared.blend = {};
+      cleared.range.aspects = is_depth(drawn.resource.value) ? 2 : 1;
+      if (one_in(6)) cleared.range.layer = 0, cleared.range.layers = kAll;
+      wipe.accesses.push_back(cleared);
+      wipe.transfers.push_back({TransferKind::clear, kAll, 0, Filter::nearest, {}, {}});
+      graph_.passes.add(wipe);
+    }
+  }
+
+  // Draws into an image of several samples, perhaps again, resolves it, and somebody looks.
+  void add_samples() {
+    const uint32_t one = shared_ + 2 * below(2), many = one + 1;
+    const auto named = [&](PassKind kind) {
+      pass_ = {};
+      pass_.name = "p" + std::to_string(graph_.passes.size()), pass_.module = "random";
+      pass_.kind = kind;
+    };
+    for (uint32_t n = 1 + below(2); n > 0; --n) {
+      named(PassKind::raster);
+      const bool keeps = is_defined(many, {}) && one_in(2);
+      Access drawn = access(many, {}, keeps ? Mode::update : Mode::write, Role::color, 0);
+      if (!keeps) drawn.clear = ClearValue{};
+      pass_.accesses.push_back(drawn);
+      define(many, {});
+      wipe_some();
+      graph_.passes.add(pass_);
+      if (one_in(3) && is_defined(one, {})) look_at(one, named);
+    }
+    named(PassKind::transfer);
+    pass_.accesses.push_back(access(many, {}, Mode::read, Role::resolve_src, 0));
+    pass_.accesses.push_back(access(one, {}, Mode::write, Role::resolve_dst, 0));
+    pass_.transfers.push_back({TransferKind::resolve, 0, 1, Filter::nearest, {}, {}});
+    graph_.passes.add(pass_);
+    define(one, {});
+    look_at(one, named);
+  }
+  template <class Named>
+  void look_at(uint32_t image, Named named) {
+    named(PassKind::raster);
+    pass_.accesses.push_back(access(image, {}, Mode::read, Role::sampled, stage_fragment));
+    pass_.accesses.push_back(access(0, {}, Mode::write, Role::color, 0));
+    pass_.accesses.back().mode = is_defined(0, {}) ? Mode::update : Mode::write;
+    if (!is_defined(0, {})) pass_.accesses.back().clear = ClearValue{};
+    define(0, {});
     graph_.passes.add(pass_);
   }
 
@@ -388,6 +459,7 @@ class Generator {
 
   std::mt19937_64 random_, queues_;
   RandomShape shape_;
+  uint32_t shared_ = 0;  // resources that any pass may use, the first ones
   Program program_;
   Graph graph_;
   Pass pass_;

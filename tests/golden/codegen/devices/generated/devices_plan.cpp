@@ -26,10 +26,10 @@ constexpr Expr kExprs[] = {
 constexpr Resource kResources[] = {
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{37}, .width = 0, .height = 0, .aspects = aspect_color, .usage = 16,
      .is_surface = true, .import_slot = 0, .estimated_bytes = 65536, .line = 11, .file = "devices.rg"},
-    {.name = "depth", .format = Format{126}, .width = 0, .height = 0, .aspects = aspect_depth, .usage = 32, .estimated_bytes = 65536,
+    {.name = "depth", .format = Format{126}, .width = 0, .height = 0, .aspects = aspect_depth, .usage = 32, .lazy = true, .estimated_bytes = 65536,
      .estimated_alignment = 65536, .line = 13, .file = "devices.rg"},
-    {.name = "many", .format = Format{37}, .width = 0, .height = 0, .samples = 4, .aspects = aspect_color, .usage = 16, .estimated_bytes = 65536,
-     .estimated_alignment = 65536, .line = 14, .file = "devices.rg"},
+    {.name = "many", .format = Format{37}, .width = 0, .height = 0, .samples = 4, .aspects = aspect_color, .usage = 16, .lazy = true,
+     .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 14, .file = "devices.rg"},
     {.name = "one", .format = Format{37}, .width = 0, .height = 0, .aspects = aspect_color, .usage = 16, .estimated_bytes = 65536,
      .estimated_alignment = 65536, .estimated_offset = 65536, .line = 15, .file = "devices.rg"},
 };

@@ -48,10 +48,10 @@ constexpr Resource kResources[] = {
      .layout = 2291125160, .import_slot = 1, .estimated_bytes = 256, .line = 5, .file = "drawing.rg"},
     {.name = "backbuffer", .lifetime = Lifetime::imported, .format = Format{43}, .width = 1, .height = 2, .aspects = aspect_color, .usage = 16,
      .mutable_format = true, .is_surface = true, .import_slot = 2, .estimated_bytes = 65536, .line = 9, .file = "drawing.rg"},
-    {.name = "mask", .format = Format{130}, .width = 1, .height = 2, .layers = 2, .aspects = aspect_depth | aspect_stencil, .usage = 32,
+    {.name = "mask", .format = Format{130}, .width = 1, .height = 2, .layers = 2, .aspects = aspect_depth | aspect_stencil, .usage = 32, .lazy = true,
      .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 11, .file = "drawing.rg"},
     {.name = "fog", .dimension = Dimension::d3, .format = Format{98}, .width = 3, .height = 3, .depth = 4, .aspects = aspect_color, .usage = 16,
-     .mutable_format = true, .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 12, .file = "drawing.rg"},
+     .mutable_format = true, .lazy = true, .estimated_bytes = 65536, .estimated_alignment = 65536, .line = 12, .file = "drawing.rg"},
     {.name = "indices", .kind = ResourceKind::buffer, .lifetime = Lifetime::persistent, .usage = 66, .bytes = 15, .stride = 2, .layout = 1948121759,
      .init = InitKind::clear, .estimated_bytes = 256, .line = 13, .file = "drawing.rg"},
 };
