@@ -117,4 +117,25 @@ Rows bench_frame(const std::string&) {
   return rows;
 }
 
+// Creation of the frame at a size that costs nothing, so that pipelines are what takes the time: by one thread and by one a core, by turns.
+Rows bench_creation(const std::string&) {
+  auto device = Device::create({});
+  if (!device) return give_up(device.error()), Rows{};
+  const std::pair<const char*, uint32_t> cases[] = {{"one", 1}, {"all", 0}};
+  std::map<std::string, std::vector<double>> times;
+  for (int round = 0; round <= kRounds; ++round)
+    for (const auto& [name, threads] : cases) {
+      GraphOptions options;
+      options.pipeline_threads = threads;
+      Status made = Done{};
+      const double ms = once_ms([&] {
+        const Result<frame::Frame> graph = frame::Frame::create(*device, {.froxels = {16, 9, 8}, .view = {64, 36}}, options);
+        if (!graph) made = graph.error();
+      });
+      if (!made) return give_up(made.error()), Rows{};
+      if (round > 0) times[name].push_back(ms);
+    }
+  return {{"creation/passes", median(times["all"]), "ms", median(times["one"]), "its pipelines made by one thread, instead of one a core"}};
+}
+
 }  // namespace rg::bench

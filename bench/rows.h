@@ -26,6 +26,7 @@ Rows bench_packing(const std::string& graphs);
 Rows bench_runtime(const std::string& graphs);
 Rows bench_variants(const std::string& graphs);  // reads bench/shaders and passes.rg: run it in the root folder
 Rows bench_frame(const std::string& graphs);     // likewise; needs a Vulkan device
+Rows bench_creation(const std::string& graphs);  // needs a Vulkan device and no graphs
 
 // Median of `runs` wall-clock times of `work`, in milliseconds; the first run warms up and is not counted.
 template <class Work>

@@ -56,8 +56,8 @@ struct ExternalDevice {
   std::mutex* queue_mutex = nullptr;               // see ExternalQueue
   std::span<const ExternalQueue> more_queues = {};  // taken by plans that have queues of their kind
   EnabledFeatures features = {};
-  const VkAllocationCallbacks* allocator = nullptr;
-  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  // used by all pipelines of the runtime
+  const VkAllocationCallbacks* allocator = nullptr;  // called from several threads at a time, unless every instance has one of GraphOptions::threads and pipeline_threads
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;   // used by all pipelines of the runtime; likewise, so not made VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT
 };
 
 // What a null device counts and how it misbehaves.

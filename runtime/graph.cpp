@@ -1,6 +1,7 @@
 #include "runtime/graph.h"
 
 #include <algorithm>
+#include <thread>
 
 #include "runtime/barriers.h"
 #include "runtime/capabilities.h"
@@ -45,16 +46,25 @@ Status check_options(const Plan& plan, const GraphOptions& options) {
     return Error{ErrorCode::invalid_argument, "frames in flight: " + std::to_string(options.frames_in_flight) + " is not in 1 to 4"};
   if (options.threads < 1 || options.threads > 64)
     return Error{ErrorCode::invalid_argument, "threads: " + std::to_string(options.threads) + " is not in 1 to 64"};
+  if (options.pipeline_threads > 64)
+    return Error{ErrorCode::invalid_argument, "threads that make pipelines: " + std::to_string(options.pipeline_threads) + " is not in 0 to 64"};
   if (options.engine_set_layouts.size() < plan.engine_sets.size())
     return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "` uses " + std::to_string(plan.engine_sets.size()) +
                                                   " engine sets; layouts given: " + std::to_string(options.engine_set_layouts.size())};
   return Done{};
 }
 
+uint32_t pipeline_threads(const Device::State& device, const GraphOptions& options) {
+  if (options.pipeline_threads != 0) return options.pipeline_threads;
+  if (device.null) return 1;
+  return options.threads > 1 ? options.threads : std::clamp(std::thread::hardware_concurrency(), 1u, 64u);
+}
+
 Context make_context(Device::State& device, const Plan& plan, const GraphOptions& options) {
   Context context{device, plan};
   context.frames_in_flight = options.frames_in_flight;
   context.threads = options.submit_per_pass ? 1 : options.threads;
+  context.pipeline_threads = pipeline_threads(device, options);
   context.aliasing = options.aliasing;
   context.poison = options.poison;
   context.debug_readback = options.debug_readback;
@@ -164,7 +174,8 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
   state->features.resize(plan.features.size());
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));
-  RG_TRY(create_pass_objects(state->context, before, state->objects));
+  RG_TRY(create_workers(*state));
+  RG_TRY(create_pass_objects(*state, before));
   RG_TRY(create_frames(*state));
   return state;
 }

@@ -74,7 +74,7 @@ struct FrameInputs {
   std::span<const SemaphoreUse> waits = {}, signals = {};      // at most 16 each
 };
 
-// How an engine runs recording jobs on its own threads: calls job(data, i) for every i below `count`, in any order, and returns when all are done.
+// How an engine runs jobs on its own threads, parts of a frame or pipelines: calls job(data, i) for every i below `count`, in any order, and returns when all are done.
 struct Parallel {
   void (*run)(void* user, uint32_t count, void (*job)(void* data, uint32_t index), void* data) = nullptr;
   void* user = nullptr;
@@ -112,6 +112,9 @@ struct GraphOptions {
   uint32_t threads = 1;                   // 1 to 64: that many record a frame; callbacks of different passes then run at the same time
   std::shared_ptr<TransientHeap> heap = {};  // null: transients have memory of their own
   Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
+  // 1 to 64: that many make the pipelines at creation, which returns when all are made. 0: those that record a frame where there are several, else one a core;
+  // on a null device one, so that its calls come in one order. What an instance is, or why there is none, does not depend on it.
+  uint32_t pipeline_threads = 0;
 };
 
 // Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory, and images in

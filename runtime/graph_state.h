@@ -27,7 +27,7 @@ struct Context {
   Device::State& device;
   Plan plan;
   uint32_t frames_in_flight = 2;
-  uint32_t threads = 1;
+  uint32_t threads = 1, pipeline_threads = 1;
   bool aliasing = true, poison = false, debug_readback = false, submit_per_pass = false, serial = false, timestamps = true, statistics = false;
   std::vector<VkDescriptorSetLayout> engine_set_layouts = {};
   Parallel parallel = {};

@@ -1,11 +1,13 @@
 #include "runtime/pipelines.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "runtime/capabilities.h"
 #include "runtime/errors.h"
+#include "runtime/make_pipeline.h"
 #include "runtime/render_pass.h"
-#include "runtime/resources.h"
+#include "runtime/workers.h"
 
 namespace rg {
 
@@ -55,213 +57,6 @@ Status create_layout(const Context& context, const Objects& objects, const Pass&
   return Done{};
 }
 
-// Shader modules live only until the pipelines are built.
-using Shaders = std::vector<UniqueShader>;  // by Plan::shaders
-
-Status create_shader(const Context& context, Index index, Shaders& shaders) {
-  if (shaders[index]) return Done{};
-  const ShaderModule& module = context.plan.shaders[index];
-  VkShaderModuleCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-  info.codeSize = module.words.size_bytes();
-  info.pCode = module.words.data();
-  VkShaderModule shader = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateShaderModule(context.device.device, &info, context.vk().allocator, &shader), "vkCreateShaderModule", module.name));
-  shaders[index] = UniqueShader(context.vk(), context.device.device, shader);
-  return Done{};
-}
-
-using Stages = std::vector<VkPipelineShaderStageCreateInfo>;
-Result<Stages> shader_stages(const Context& context, const Pipeline& pipeline, Shaders& shaders) {
-  Stages stages;
-  for (const Index shader : context.plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count)) {
-    RG_TRY(create_shader(context, shader, shaders));
-    VkPipelineShaderStageCreateInfo& stage = stages.emplace_back();
-    stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    stage.stage = static_cast<VkShaderStageFlagBits>(context.plan.shaders[shader].stage);
-    stage.module = shaders[shader].get();
-    stage.pName = "main";
-  }
-  return stages;
-}
-
-VkPipelineColorBlendAttachmentState blend_state(const ColorBlend& blend) {
-  VkPipelineColorBlendAttachmentState state{};
-  state.blendEnable = blend.enabled ? VK_TRUE : VK_FALSE;
-  state.srcColorBlendFactor = static_cast<VkBlendFactor>(blend.src);
-  state.dstColorBlendFactor = static_cast<VkBlendFactor>(blend.dst);
-  state.colorBlendOp = static_cast<VkBlendOp>(blend.op);
-  state.srcAlphaBlendFactor = static_cast<VkBlendFactor>(blend.src_alpha);
-  state.dstAlphaBlendFactor = static_cast<VkBlendFactor>(blend.dst_alpha);
-  state.alphaBlendOp = static_cast<VkBlendOp>(blend.op_alpha);
-  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-  return state;
-}
-
-// The fixed-function state of a graphics pipeline; points into itself, so it is filled in place.
-struct GraphicsState {
-  std::vector<VkVertexInputBindingDescription> vertex_bindings;
-  std::vector<VkVertexInputAttributeDescription> vertex_attributes;
-  std::vector<VkPipelineColorBlendAttachmentState> blends;
-  VkPipelineVertexInputStateCreateInfo vertex_input{};
-  VkPipelineInputAssemblyStateCreateInfo assembly{};
-  VkPipelineTessellationStateCreateInfo tessellation{};
-  VkPipelineViewportStateCreateInfo viewport{};
-  VkPipelineRasterizationStateCreateInfo raster{};
-  VkPipelineRasterizationConservativeStateCreateInfoEXT conservative{};
-  VkPipelineMultisampleStateCreateInfo multisample{};
-  VkPipelineSampleLocationsStateCreateInfoEXT locations{};
-  std::vector<VkSampleLocationEXT> sample_locations;
-  VkPipelineDepthStencilStateCreateInfo depth{};
-  VkPipelineColorBlendStateCreateInfo blend{};
-  VkPipelineDynamicStateCreateInfo dynamic{};
-  VkPipelineRenderingCreateInfo rendering{};
-};
-
-void fill_vertex_input(const Plan& plan, const Pipeline& pipeline, GraphicsState& state) {
-  for (uint32_t i = 0; i < pipeline.vertex_binding_count; ++i) {
-    const VertexBinding& binding = plan.vertex_bindings[pipeline.first_vertex_binding + i];
-    state.vertex_bindings.push_back({i, binding.stride, binding.per_instance ? VK_VERTEX_INPUT_RATE_INSTANCE : VK_VERTEX_INPUT_RATE_VERTEX});
-  }
-  for (const VertexAttribute& attribute : plan.vertex_attributes.subspan(pipeline.first_vertex_attribute, pipeline.vertex_attribute_count))
-    state.vertex_attributes.push_back({attribute.location, attribute.binding, static_cast<VkFormat>(attribute.format), attribute.offset});
-  state.vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-  state.vertex_input.vertexBindingDescriptionCount = static_cast<uint32_t>(state.vertex_bindings.size());
-  state.vertex_input.pVertexBindingDescriptions = state.vertex_bindings.data();
-  state.vertex_input.vertexAttributeDescriptionCount = static_cast<uint32_t>(state.vertex_attributes.size());
-  state.vertex_input.pVertexAttributeDescriptions = state.vertex_attributes.data();
-  state.assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-  state.assembly.topology = static_cast<VkPrimitiveTopology>(pipeline.raster.topology);
-  state.tessellation.sType = VK_STRUCTURE_TYPE_PIPELINE_TESSELLATION_STATE_CREATE_INFO;
-  state.tessellation.patchControlPoints = 3;
-}
-
-VkStencilOpState stencil_state(const StencilFace& face) {
-  return {static_cast<VkStencilOp>(face.fail), static_cast<VkStencilOp>(face.pass), static_cast<VkStencilOp>(face.depth_fail),
-          static_cast<VkCompareOp>(face.compare), face.read_mask, face.write_mask, face.reference};
-}
-
-void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
-  const RasterState& in = pipeline.raster;
-  state.viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-  state.viewport.viewportCount = state.viewport.scissorCount = 1;
-  state.raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-  state.raster.cullMode = in.cull;
-  state.raster.frontFace = in.front_clockwise ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
-  state.raster.depthBiasEnable = in.depth_bias_constant != 0 || in.depth_bias_slope != 0 ? VK_TRUE : VK_FALSE;
-  state.raster.depthBiasConstantFactor = in.depth_bias_constant;
-  state.raster.depthBiasSlopeFactor = in.depth_bias_slope;
-  state.raster.lineWidth = 1;
-  state.multisample.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-  state.multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(rendering.samples);
-  state.multisample.alphaToCoverageEnable = in.alpha_to_coverage ? VK_TRUE : VK_FALSE;
-  state.depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-  state.depth.depthTestEnable = in.depth_test ? VK_TRUE : VK_FALSE;
-  state.depth.depthWriteEnable = in.depth_write ? VK_TRUE : VK_FALSE;
-  state.depth.depthCompareOp = static_cast<VkCompareOp>(in.depth_compare);
-  state.depth.stencilTestEnable = in.stencil_test ? VK_TRUE : VK_FALSE;
-  state.depth.front = stencil_state(in.stencil_front);
-  state.depth.back = stencil_state(in.stencil_back);
-}
-
-// What the device has been asked for, see fits_device.
-void fill_device_state(const Plan& plan, const RasterState& in, const Rendering& rendering, GraphicsState& state) {
-  state.depth.depthBoundsTestEnable = in.depth_bounds ? VK_TRUE : VK_FALSE;
-  state.depth.minDepthBounds = in.depth_min;
-  state.depth.maxDepthBounds = in.depth_max;
-  if (in.conservative) {
-    state.conservative.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT;
-    state.conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
-    state.raster.pNext = &state.conservative;
-  }
-  if (in.sample_location_count == 0) return;
-  for (const SampleLocation& at : plan.sample_locations.subspan(in.first_sample_location, in.sample_location_count))
-    state.sample_locations.push_back({at.x, at.y});
-  state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
-  state.locations.sampleLocationsEnable = VK_TRUE;
-  state.locations.sampleLocationsInfo = {VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT, nullptr, static_cast<VkSampleCountFlagBits>(rendering.samples), {1, 1},
-                                         static_cast<uint32_t>(state.sample_locations.size()), state.sample_locations.data()};
-  state.multisample.pNext = &state.locations;
-}
-
-void fill_blend(const Plan& plan, const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
-  for (uint32_t i = 0; i < rendering.color_count; ++i)
-    state.blends.push_back(blend_state(i < pipeline.blend_count ? plan.blends[pipeline.first_blend + i] : ColorBlend{}));
-  state.blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-  state.blend.attachmentCount = static_cast<uint32_t>(state.blends.size());
-  state.blend.pAttachments = state.blends.data();
-  static constexpr VkDynamicState kDynamic[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-  state.dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-  state.dynamic.dynamicStateCount = 2;
-  state.dynamic.pDynamicStates = kDynamic;
-}
-
-void fill_rendering(const Context& context, const Rendering& rendering, const PassObjects& pass, GraphicsState& state) {
-  auto format = [&](Index attachment) {
-    return attachment == kNone ? VK_FORMAT_UNDEFINED
-                               : static_cast<VkFormat>(context.plan.resources[context.plan.attachments[attachment].ref.resource].format);
-  };
-  state.rendering.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO;
-  state.rendering.viewMask = rendering.view_mask;
-  state.rendering.colorAttachmentCount = static_cast<uint32_t>(pass.color_formats.size());
-  state.rendering.pColorAttachmentFormats = pass.color_formats.data();
-  state.rendering.depthAttachmentFormat = format(rendering.depth);
-  state.rendering.stencilAttachmentFormat = format(rendering.stencil);
-}
-
-Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipeline, const Rendering& rendering, const PassObjects& pass,
-                                   const Stages& stages) {
-  GraphicsState state;
-  fill_vertex_input(context.plan, pipeline, state);
-  fill_raster(pipeline, rendering, state);
-  fill_device_state(context.plan, pipeline.raster, rendering, state);
-  fill_blend(context.plan, pipeline, rendering, state);
-  fill_rendering(context, rendering, pass, state);
-  VkGraphicsPipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  info.pNext = pass.render_pass ? nullptr : &state.rendering;
-  info.renderPass = pass.render_pass.get();
-  info.stageCount = static_cast<uint32_t>(stages.size());
-  info.pStages = stages.data();
-  info.pVertexInputState = &state.vertex_input;
-  info.pInputAssemblyState = &state.assembly;
-  info.pTessellationState = &state.tessellation;
-  info.pViewportState = &state.viewport;
-  info.pRasterizationState = &state.raster;
-  info.pMultisampleState = &state.multisample;
-  info.pDepthStencilState = &state.depth;
-  info.pColorBlendState = &state.blend;
-  info.pDynamicState = &state.dynamic;
-  info.layout = pass.layout.get();
-  VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateGraphicsPipelines",
-               pass.name));
-  return handle;
-}
-
-Result<VkPipeline> create_compute(const Context& context, const PassObjects& pass, const Stages& stages) {
-  VkComputePipelineCreateInfo info{};
-  info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-  info.stage = stages[0];
-  info.layout = pass.layout.get();
-  VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateComputePipelines",
-               pass.name));
-  return handle;
-}
-
-Result<UniquePipeline> create_pipeline(const Context& context, const Pass& pass, Index index, Shaders& shaders, const PassObjects& out) {
-  const Pipeline& pipeline = context.plan.pipelines[index];
-  const Result<Stages> stages = shader_stages(context, pipeline, shaders);
-  if (!stages) return stages.error();
-  const bool graphics = pass.rendering != kNone;
-  const Result<VkPipeline> handle =
-      graphics ? create_graphics(context, pipeline, context.plan.renderings[pass.rendering], out, *stages) : create_compute(context, out, *stages);
-  if (!handle) return handle.error();
-  name_object(context.device, VK_OBJECT_TYPE_PIPELINE, *handle, out.name);
-  return UniquePipeline(context.vk(), context.device.device, *handle);
-}
-
 // Whether the device answers its features as this combination of values has them; others may use what it lacks.
 bool fits_device(const Context& context, const Pass& pass, uint32_t selector) {
   for (uint32_t i = pass.feature_count; i-- > 0;) {
@@ -274,33 +69,96 @@ bool fits_device(const Context& context, const Pass& pass, uint32_t selector) {
   return true;
 }
 
-// The pipeline of the pass, and those that other feature values choose; each once.
-Status create_pipelines(const Context& context, const Pass& pass, const PipelineReuse& reuse, Shaders& shaders, PassObjects& out) {
-  const auto find = [&](Index index) -> Result<VkPipeline> {
-    if (index == kNone) return VkPipeline(VK_NULL_HANDLE);
-    for (const MadePipeline& made : out.pipelines)
-      if (made.row == index) return made.pipeline->get();
-    SharedPipeline pipeline = reuse.find(pass, index, out);
-    if (pipeline == nullptr) {
-      Result<UniquePipeline> made = create_pipeline(context, pass, index, shaders, out);
-      if (!made) return made.error();
-      pipeline = std::make_shared<const UniquePipeline>(std::move(*made));
-    }
-    out.pipelines.push_back({index, std::move(pipeline)});
-    const VkPipeline handle = out.pipelines.back().pipeline->get();
-    if (index == pass.pipeline || out.pipeline == VK_NULL_HANDLE) out.pipeline = handle;
-    return handle;
-  };
-  if (pass.choice_count == 0)
-    if (const Result<VkPipeline> own = find(pass.pipeline); !own) return own.error();
-  for (uint32_t selector = 0; selector < pass.choice_count; ++selector) {
-    const Index choice = context.plan.pipeline_choices[pass.first_choice + selector];
-    const Result<VkPipeline> handle = find(fits_device(context, pass, selector) ? choice : kNone);
-    if (!handle) return handle.error();
-    out.choices.push_back(*handle);
+// Rows of Plan::pipelines, by combination of feature values; of one combination where the pass uses no features. kNone: not on this device.
+std::vector<Index> rows_of(const Context& context, const Pass& pass) {
+  if (pass.pipeline == kNone) return {};
+  if (pass.choice_count == 0) return {pass.pipeline};
+  std::vector<Index> rows;
+  for (uint32_t selector = 0; selector < pass.choice_count; ++selector)
+    rows.push_back(fits_device(context, pass, selector) ? context.plan.pipeline_choices[pass.first_choice + selector] : kNone);
+  return rows;
+}
+
+const MadePipeline* find_row(const PassObjects& pass, Index row) {
+  const auto found = std::find_if(pass.pipelines.begin(), pass.pipelines.end(), [row](const MadePipeline& made) { return made.row == row; });
+  return found == pass.pipelines.end() ? nullptr : &*found;
+}
+
+// An entry of PassObjects::pipelines that has no pipeline yet.
+struct Wanted {
+  Index pass = kNone;
+  size_t entry = 0;
+};
+
+// The pipelines of a pass, each once; those that the predecessor does not have are wanted.
+Status list_pipelines(const Context& context, Index pass, const PipelineReuse& reuse, Shaders& shaders, PassObjects& out, std::vector<Wanted>& wanted) {
+  for (const Index row : rows_of(context, context.plan.passes[pass])) {
+    if (row == kNone || find_row(out, row) != nullptr) continue;
+    out.pipelines.push_back({row, reuse.find(context.plan.passes[pass], row, out)});
+    if (out.pipelines.back().pipeline != nullptr) continue;
+    wanted.push_back({pass, out.pipelines.size() - 1});
+    RG_TRY(create_shaders(context, row, shaders));
   }
   return Done{};
 }
+
+void choose_pipelines(const Context& context, const Pass& pass, PassObjects& out) {
+  for (const MadePipeline& made : out.pipelines)
+    if (made.row == pass.pipeline || out.pipeline == VK_NULL_HANDLE) out.pipeline = made.pipeline->get();
+  if (pass.choice_count == 0) return;
+  for (const Index row : rows_of(context, pass)) out.choices.push_back(row == kNone ? VK_NULL_HANDLE : find_row(out, row)->pipeline->get());
+}
+
+// ---- making them ------------------------------------------------------------------------------------------------------
+
+struct PipelineJobs {
+  const Context& context;
+  const Shaders& shaders;
+  Objects& objects;
+  std::span<const Wanted> wanted;
+  std::vector<Status> results;
+  std::atomic<uint32_t> first_failed = UINT32_MAX;
+};
+
+// Jobs behind one that failed are not begun; those before it are, whoever was faster: so the first of all that fail is always the one that is reported.
+void make_wanted(void* data, uint32_t index) {
+  PipelineJobs& jobs = *static_cast<PipelineJobs*>(data);
+  uint32_t first = jobs.first_failed.load();
+  if (index > first) return;
+  const Wanted& wanted = jobs.wanted[index];
+  PassObjects& pass = jobs.objects.passes[wanted.pass];
+  MadePipeline& entry = pass.pipelines[wanted.entry];
+  Result<UniquePipeline> made = make_pipeline(jobs.context, jobs.context.plan.passes[wanted.pass], entry.row, jobs.shaders, pass);
+  if (made) {
+    entry.pipeline = std::make_shared<const UniquePipeline>(std::move(*made));
+    return;
+  }
+  jobs.results[index] = made.error();
+  while (index < first && !jobs.first_failed.compare_exchange_weak(first, index)) {}
+}
+
+// On the engine's threads, on those that record, or on some that are gone afterwards.
+void run_jobs(const GraphInstance::State& state, PipelineJobs& jobs) {
+  const Context& context = state.context;
+  const auto count = static_cast<uint32_t>(jobs.wanted.size());
+  const uint32_t threads = std::min(context.pipeline_threads, count);
+  if (threads > 1 && context.parallel.run != nullptr) {
+    context.parallel.run(context.parallel.user, count, make_wanted, &jobs);
+  } else if (threads > 1 && state.workers && context.pipeline_threads == context.threads) {
+    state.workers->run(count, make_wanted, &jobs);
+  } else {
+    Workers(std::max(threads, 1u) - 1, Workers::Missing::done_without).run(count, make_wanted, &jobs);
+  }
+}
+
+Status make_pipelines(GraphInstance::State& state, const Shaders& shaders, std::span<const Wanted> wanted) {
+  PipelineJobs jobs{state.context, shaders, state.objects, wanted, std::vector<Status>(wanted.size(), Status(Done{}))};
+  run_jobs(state, jobs);
+  const uint32_t failed = jobs.first_failed.load();
+  return failed == UINT32_MAX ? Status(Done{}) : jobs.results[failed];
+}
+
+// ---- passes -----------------------------------------------------------------------------------------------------------
 
 Status create_attachments(const Context& context, const Pass& pass, PassObjects& out) {
   const Rendering& rendering = context.plan.renderings[pass.rendering];
@@ -321,8 +179,8 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   return Done{};
 }
 
-Status create_one(const Context& context, const Objects& objects, const Pass& pass, uint32_t module_number, const PipelineReuse& reuse, Shaders& shaders,
-                  PassObjects& out) {
+// All but the pipelines.
+Status create_one(const Context& context, const Objects& objects, const Pass& pass, uint32_t module_number, PassObjects& out) {
   out.name = pass.name;
   out.module = pass.module;
   out.module_number = module_number;
@@ -332,8 +190,9 @@ Status create_one(const Context& context, const Objects& objects, const Pass& pa
     if (!layout) return layout.error();
     out.set_layout = std::move(*layout);
   }
-  RG_TRY(create_layout(context, objects, pass, out));
-  return pass.pipeline == kNone ? Status(Done{}) : create_pipelines(context, pass, reuse, shaders, out);
+  out.label.sType = out.module_label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
+  out.label.pLabelName = out.name.c_str(), out.module_label.pLabelName = out.module.c_str();
+  return create_layout(context, objects, pass, out);
 }
 
 // By pass, so that recording compares numbers and not names.
@@ -350,8 +209,10 @@ std::vector<uint32_t> module_numbers(const Plan& plan) {
 
 }  // namespace
 
-Status create_pass_objects(const Context& context, const Predecessor* before, Objects& objects) {
+Status create_pass_objects(GraphInstance::State& state, const Predecessor* before) {
   static_assert(kPassSet == 1);
+  const Context& context = state.context;
+  Objects& objects = state.objects;
   Result<UniqueSetLayout> empty = create_set_layout(context, {}, context.plan.name);
   if (!empty) return empty.error();
   objects.empty_set_layout = std::move(*empty);
@@ -360,13 +221,14 @@ Status create_pass_objects(const Context& context, const Predecessor* before, Ob
   const PipelineReuse reuse(context, before);
   const std::vector<uint32_t> modules = module_numbers(context.plan);
   const std::vector<RenderingPart> parts = find_parts(context.plan);
-  for (size_t i = 0; i < context.plan.passes.size(); ++i) {
-    objects.passes[i].part = parts[i];
-    RG_TRY(create_one(context, objects, context.plan.passes[i], modules[i], reuse, shaders, objects.passes[i]));
-    PassObjects& pass = objects.passes[i];
-    pass.label.sType = pass.module_label.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT;
-    pass.label.pLabelName = pass.name.c_str(), pass.module_label.pLabelName = pass.module.c_str();
+  std::vector<Wanted> wanted;
+  for (Index p = 0; p < context.plan.passes.size(); ++p) {
+    objects.passes[p].part = parts[p];
+    RG_TRY(create_one(context, objects, context.plan.passes[p], modules[p], objects.passes[p]));
+    RG_TRY(list_pipelines(context, p, reuse, shaders, objects.passes[p], wanted));
   }
+  RG_TRY(make_pipelines(state, shaders, wanted));
+  for (Index p = 0; p < context.plan.passes.size(); ++p) choose_pipelines(context, context.plan.passes[p], objects.passes[p]);
   return Done{};
 }
 

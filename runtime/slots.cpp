@@ -191,16 +191,6 @@ Status create_prologue(const Context& context, Prologue& prologue) {
   return create_fences(context, prologue.fences, prologue.fenced);
 }
 
-Status create_workers(GraphInstance::State& state, const Parallel& parallel) {
-  if (state.context.threads <= 1 || parallel.run != nullptr) return Done{};
-  try {
-    state.workers.reset(new Workers(state.context.threads - 1));
-  } catch (const std::system_error& error) {
-    return Error{ErrorCode::unsupported, "no more threads: " + std::string(error.what())};
-  }
-  return Done{};
-}
-
 void reserve_submits(GraphInstance::State& state) {
   const Plan& plan = state.context.plan;
   const size_t entries = 3 * (1 + kMaxPlanQueues);  // of the prologue, of the instance before, of the heap's last user
@@ -220,6 +210,16 @@ void reserve_submits(GraphInstance::State& state) {
 
 }  // namespace
 
+Status create_workers(GraphInstance::State& state) {
+  if (state.context.threads <= 1 || state.context.parallel.run != nullptr) return Done{};
+  try {
+    state.workers.reset(new Workers(state.context.threads - 1));
+  } catch (const std::system_error& error) {
+    return Error{ErrorCode::unsupported, "no more threads: " + std::string(error.what())};
+  }
+  return Done{};
+}
+
 Status create_frames(GraphInstance::State& state) {
   RG_TRY(create_timelines(state));
   cut_frame(state);
@@ -227,7 +227,6 @@ Status create_frames(GraphInstance::State& state) {
   RG_TRY(create_prologue(state.context, state.prologue));
   state.slots.resize(state.context.frames_in_flight);
   for (FrameSlot& slot : state.slots) RG_TRY(create_slot(state, slot));
-  RG_TRY(create_workers(state, state.context.parallel));
   reserve_submits(state);
   return Done{};
 }

@@ -5,6 +5,8 @@
 
 namespace rg {
 
+// The threads that record, unless the engine's do.
+Status create_workers(GraphInstance::State& state);
 Status create_frames(GraphInstance::State& state);
 
 // Of a slot whose last frame is done: its command buffers can be recorded again, its queries written.

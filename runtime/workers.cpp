@@ -1,15 +1,25 @@
 #include "runtime/workers.h"
 
+#include <system_error>
+
 #include "runtime/graph_state.h"
 
 namespace rg {
 
-Workers::Workers(uint32_t helpers) {
+Workers::Workers(uint32_t helpers, Missing missing) {
   helpers_.reserve(helpers);
-  for (uint32_t i = 0; i < helpers; ++i) helpers_.emplace_back([this] { help(); });
+  try {
+    while (helpers_.size() < helpers) helpers_.emplace_back([this] { help(); });
+  } catch (const std::system_error&) {
+    if (missing == Missing::done_without) return;
+    stop();  // no destructor follows
+    throw;
+  }
 }
 
-Workers::~Workers() {
+Workers::~Workers() { stop(); }
+
+void Workers::stop() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;

@@ -1,4 +1,4 @@
-// Threads that record parts of a frame together with the caller.
+// Threads that record parts of a frame, or make pipelines, together with the caller.
 #pragma once
 
 #include <condition_variable>
@@ -12,13 +12,15 @@ namespace rg {
 class Workers {
  public:
   using Job = void (*)(void* data, uint32_t index);
-  explicit Workers(uint32_t helpers);
+  enum class Missing { thrown, done_without };  // helpers that the system refuses: std::system_error, or there are fewer
+  explicit Workers(uint32_t helpers, Missing missing = Missing::thrown);
   ~Workers();  // idle: run() has returned
   // Calls job(data, i) once for every i below `count`, on the helpers and on the caller; returns when all are done. Allocates nothing.
   void run(uint32_t count, Job job, void* data);
 
  private:
   void help();
+  void stop();
   void take_jobs(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;

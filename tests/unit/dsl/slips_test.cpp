@@ -97,6 +97,15 @@ TEST(Suggestions, NoFixChangesWhatATypeMeans) {
   EXPECT_EQ(first_fix(load_text(in_graph("image a : rbga16f view"))), "rgba16f");
 }
 
+// `host` is where an engine leaves an import; no pass has it (RG0300, RG0338).
+TEST(Suggestions, RolesAreThoseThatAPassCanHave) {
+  const auto fix_in = [](std::string_view kind, std::string_view role) {
+    return first_fix(load_text(in_graph("buffer b : u32[4]\npass p : " + std::string(kind) + " { write b as " + std::string(role) + " }")));
+  };
+  EXPECT_EQ(fix_in("compute", "storge"), "storage");
+  for (const char* kind : {"compute", "transfer", "host"}) EXPECT_EQ(fix_in(kind, "hots"), "") << kind;
+}
+
 TEST(Suggestions, TypesAsOtherLanguagesCallThem) {
   const std::pair<const char*, const char*> pairs[] = {{"float", "f32"}, {"int", "i32"},     {"uint", "u32"},
                                                        {"float4", "vec4"}, {"uint2", "uvec2"}, {"mat4x4", "mat4"}};
