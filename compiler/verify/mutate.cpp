@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "compiler/verify/alias.h"
-#include "compiler/verify/roles.h"
+#include "compiler/verify/harmless.h"
 
 namespace rg::verify {
 namespace {
@@ -29,8 +29,8 @@ const char* tag_name(BarrierTag tag) {
   return "tagged";
 }
 
-constexpr Accesses kWriting = access::shader_write | access::shader_storage_write | access::color_attachment_write |
-                              access::depth_stencil_attachment_write | access::transfer_write | access::host_write;
+// The class that explains more, if any does.
+const std::string& either(const std::string& first, const std::string& second) { return first.empty() ? second : first; }
 
 class Mutator {
  public:
@@ -42,7 +42,8 @@ class Mutator {
         plan_(plan),
         program_pass_(program_pass),
         program_resource_(program_resource),
-        options_(options) {}
+        options_(options),
+        harmless_(program.graphs[graph], plan, program_pass, program_resource) {}
 
   MutationReport run() {
     each("barrier", plan_.memory_barriers, [&](Index i) { masks(&Plan::memory_barriers, i, "memory barrier"); });
@@ -181,45 +182,15 @@ class Mutator {
         &Plan::image_barriers, at, [&](ImageBarrier& b) { b.new_layout = other; }, what + ", another new layout");
     if (row.old_layout != Layout::undefined)
       change(
-          &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded", dead_contents(row));
+          &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded", harmless_.without_contents(row));
     if (row.range.mips != kRemaining && row.range.mips > 1)
       change(
           &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.mips; }, what + ", last mip left out",
-          leaves_layout(at, row.range.mip + row.range.mips - 1, row.range.layer) ? "part of a discard whose layout stays" : harmless);
+          either(harmless_.narrower(at, row.range.mip + row.range.mips - 1, row.range.layer), harmless));
     if (row.range.layers != kRemaining && row.range.layers > 1)
       change(
           &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.layers; }, what + ", last layer left out",
-          leaves_layout(at, row.range.mip, row.range.layer + row.range.layers - 1) ? "part of a discard whose layout stays" : harmless);
-  }
-
-  // Barriers are wide where neighbours need the same: of a part that is discarded, and is in the new layout anyway, others may say all there is to say.
-  bool leaves_layout(Index at, uint32_t mip, uint32_t layer) const {
-    const ImageBarrier& row = plan_.image_barriers[at];
-    if (row.old_layout != Layout::undefined || row.src_queue != row.dst_queue) return false;
-    const auto holds = [&](const Ref& ref, const Range& range) {
-      return ref == row.image && meet(range, {row.range.aspects, mip, 1, layer, 1});
-    };
-    Layout before = Layout::undefined;
-    for (const Boundary& entry : plan_.entry)
-      if (holds(entry.ref, entry.range)) before = entry.layout;
-    for (const Step& step : plan_.steps) {
-      if (step.kind != StepKind::barriers) continue;
-      const BarrierGroup& group = plan_.groups[step.index];
-      for (Index i = group.first_image; i < group.first_image + group.image_count; ++i) {
-        if (i == at) return before == row.new_layout;
-        if (holds(plan_.image_barriers[i].image, plan_.image_barriers[i].range)) before = plan_.image_barriers[i].new_layout;
-      }
-    }
-    return false;
-  }
-
-  // Contents that the next user overwrites entirely are not missed.
-  static std::string dead_contents(const ImageBarrier& row) {
-    const Accesses reads = access::shader_sampled_read | access::shader_storage_read | access::shader_read | access::color_attachment_read |
-                           access::depth_stencil_attachment_read | access::input_attachment_read | access::transfer_read | access::memory_read;
-    // A depth write brings its test along.
-    const Accesses test = row.dst_accesses & access::depth_stencil_attachment_write ? access::depth_stencil_attachment_read : Accesses{0};
-    return (row.dst_accesses & reads & ~test) == 0 && row.dst_accesses != 0 ? "contents that the next pass may overwrite" : "";
+          either(harmless_.narrower(at, row.range.mip, row.range.layer + row.range.layers - 1), harmless));
   }
 
   void buffer(Index at) {
@@ -240,28 +211,7 @@ class Mutator {
           &Plan::attachments, at, [](Attachment& a) { a.load = LoadOp::dont_care; }, what + " not cleared");
     if (row.store == StoreOp::store)
       change(
-          &Plan::attachments, at, [](Attachment& a) { a.store = StoreOp::dont_care; }, what + " not stored", kept_over_skipped(at));
-  }
-
-  bool draws_to(const Pass& pass, Index at) const {
-    if (pass.rendering == kNone) return false;
-    const Rendering& rendering = plan_.renderings[pass.rendering];
-    return rendering.depth == at || rendering.stencil == at || (at >= rendering.first_color && at < rendering.first_color + rendering.color_count);
-  }
-
-  // Where the next writer may be skipped, contents are kept for whoever comes after it, be it only another writer.
-  std::string kept_over_skipped(Index at) const {
-    bool found = false;
-    for (const Step& step : plan_.steps) {
-      if (step.kind != StepKind::pass) continue;
-      const Pass& pass = plan_.passes[step.index];
-      if (draws_to(pass, at)) found = true;
-      if (!found || draws_to(pass, at)) continue;
-      for (const Access& row : accesses_of(step.index))
-        if (row.writes && row.ref == plan_.attachments[at].ref && meet(row.range, plan_.attachments[at].range))
-          return pass.guard != 0 || pass.mip_limit_count != 0 ? "contents kept over a pass that may be skipped" : "";
-    }
-    return {};
+          &Plan::attachments, at, [](Attachment& a) { a.store = StoreOp::dont_care; }, what + " not stored", harmless_.not_stored(at));
   }
 
   void release(Index at) {
@@ -276,12 +226,7 @@ class Mutator {
     if (plan_.releases[at].point > 0)
       change(
           &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early",
-          is_released_elsewhere(at) ? "release behind users for which another queue waits" : harmless);
-  }
-
-  bool is_released_elsewhere(Index at) const {
-    const Release& row = plan_.releases[at];
-    return std::any_of(plan_.releases.begin(), plan_.releases.end(), [&](const Release& r) { return r.resource == row.resource && r.queue != row.queue; });
+          either(harmless_.released_earlier(at), harmless));
   }
 
   // Of buffers; an image's own barrier says what its acquire says.
@@ -408,65 +353,7 @@ class Mutator {
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
     judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged",
-          depend(plan_.steps[at].index, plan_.steps[next].index, next + 1) ? "" : "exchanged passes that do not depend on each other");
-  }
-
-  std::span<const Access> accesses_of(Index pass) const { return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count); }
-
-  // `after`: the first step behind both.
-  bool depend(Index a, Index b, Index after) const {
-    for (const Access& x : accesses_of(a))
-      for (const Access& y : accesses_of(b))
-        if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref) &&
-            !(commutes_in(a, x.ref) && commutes_in(b, x.ref)) && !is_overwritten(x, y, after))
-          return true;
-    return false;
-  }
-
-  // Both write only, and so does whoever comes to it next, all of it and always: neither is missed.
-  bool is_overwritten(const Access& x, const Access& y, Index after) const {
-    if (reads(x) || reads(y)) return false;
-    for (Index s = after; s < plan_.steps.size(); ++s) {
-      if (plan_.steps[s].kind != StepKind::pass) continue;
-      const Index pass = plan_.steps[s].index;
-      const auto touches = [&](const Access& row) { return row.ref == x.ref && (meet(row.range, x.range) || meet(row.range, y.range)); };
-      const auto covers = [&](const Access& row) { return row.range == x.range && row.range == y.range && row.bytes == x.bytes && !reads(row); };
-      const auto rows = accesses_of(pass);
-      if (std::none_of(rows.begin(), rows.end(), touches)) continue;
-      return runs_always(pass) && std::all_of(rows.begin(), rows.end(), [&](const Access& row) { return !touches(row) || covers(row); });
-    }
-    return false;
-  }
-  static bool reads(const Access& row) { return !row.writes || (row.accesses & ~kWriting) != 0; }
-  bool runs_always(Index pass) const {
-    const dsl::Pass& row = program_.graphs[graph_].passes.rows[program_pass_[pass]];
-    return row.conditions.empty() && row.mip_limits.empty();
-  }
-
-  // All that the pass does to the resource is declared to commute.
-  bool commutes_in(Index pass, Ref ref) const {
-    const dsl::Graph& graph = program_.graphs[graph_];
-    if (pass >= program_pass_.size() || program_pass_[pass] >= graph.passes.size()) return false;
-    const auto& accesses = graph.passes.rows[program_pass_[pass]].accesses;
-    return std::all_of(accesses.begin(), accesses.end(), [&](const dsl::Access& access) {
-      return access.resource.value != program_resource_[ref.resource] || commutes(access);
-    });
-  }
-
-  // Two writers of contents that nobody reads may follow each other in any order.
-  bool is_read(Ref ref) const {
-    if (plan_.resources[ref.resource].lifetime != Lifetime::transient) return true;
-    return std::any_of(plan_.accesses.begin(), plan_.accesses.end(), [&](const Access& row) { return row.ref == ref && (row.accesses & ~kWriting) != 0; });
-  }
-
-  static bool meet(uint32_t begin, uint32_t count, uint32_t other, uint32_t other_count) {
-    const uint64_t end = count == kRemaining ? UINT64_MAX : uint64_t{begin} + count;
-    const uint64_t other_end = other_count == kRemaining ? UINT64_MAX : uint64_t{other} + other_count;
-    return begin < other_end && other < end;
-  }
-  static bool meet(const Range& x, const Range& y) {
-    if (x.aspects == 0 && y.aspects == 0) return true;  // buffers
-    return (x.aspects & y.aspects) != 0 && meet(x.mip, x.mips, y.mip, y.mips) && meet(x.layer, x.layers, y.layer, y.layers);
+          harmless_.exchanged(at, next));
   }
 
   // ---- placement ------------------------------------------------------------------------------------------------------------
@@ -487,6 +374,7 @@ class Mutator {
   const std::vector<uint32_t>& program_pass_;
   const std::vector<uint32_t>& program_resource_;
   const MutateOptions& options_;
+  const Harmless harmless_;
   size_t turn_ = 0;
   std::string kind_;
   MutationReport report_;
