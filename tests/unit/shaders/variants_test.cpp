@@ -187,5 +187,24 @@ TEST(Statistics, CountsAndLiveScalars) {
   EXPECT_LE(s.live_scalars, 16u);
 }
 
+// Kernels of a spectrum are only put together in a hurry, and are what the validator takes; a whole build leaves out what they do not need.
+TEST_F(Variants, KernelsAreValidInAHurry) {
+  pass_with({}, "float shade(bool on) { return on ? sin(float(gl_LocalInvocationIndex)) : 0.5; }\n"
+                "void main() { vec4 c = vec4(shade(red)); if (blue) c.b = cos(c.r); imageStore(hdr, ivec2(0), c); }\n")
+      .features = {{"red", {}, 0, {}, span("work")}, {"blue", {}, 0, {}, span("work")}};
+  ShaderOptions hurried;
+  hurried.effort = ShaderEffort::preview;
+  const ShaderBundle preview = compile(initial_variants(program, graph_id), hurried), whole = compile(initial_variants(program, graph_id));
+  ASSERT_TRUE(diagnostics.rows().empty()) << diagnostics.rows()[0].message();
+  EXPECT_FALSE(preview.complete);
+  EXPECT_TRUE(whole.complete);
+  ASSERT_EQ(preview.shaders.size(), 1u);
+  const Words& words = preview.shaders[0].words;
+  EXPECT_EQ(validate_spirv(words), "");
+  EXPECT_TRUE(specialisation_ids(words).empty());
+  EXPECT_EQ(without_names(words), words);
+  EXPECT_LT(find_statistics(whole.shaders[0].words).instructions, find_statistics(words).instructions);
+}
+
 }  // namespace
 }  // namespace rg::compiler
