@@ -367,7 +367,7 @@ void check_names(const Rules& rules) {
   };
   for (const Access& access : rules.pass.accesses)
     if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, {access.span, &access});
-  for (const ParamsUse& use : rules.pass.params) claim(rules.graph.params[use.id].name, {use.span});
+  for (const ParamsUse& use : rules.pass.params) claim(use.name, {use.span});
 }
 
 }  // namespace
