@@ -130,6 +130,7 @@ TEST_F(Variants, AFailureThatTakesFeaturesNamesTheFewest) {
   compile(all_combinations());
   EXPECT_EQ(report(),
             "RG0402 work.comp:4:7 `nothing`: undeclared identifier\n"
+            "  RG0455 passes.rg:3:8 the pass gives it `hdr`, `red`, `blue`, `green`\n"
             "  RG0450 passes.rg:4:5 shader of pass `work`, named here\n"
             "  RG0708 passes.rg:3:8 it fails with `red=on, green=on` and compiles with `red=off, blue=off, green=off`\n");
 }
