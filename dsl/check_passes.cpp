@@ -466,6 +466,7 @@ bool claim_name(Builder& at) {
 void drop_pass(Builder& at) {
   at.scope.incomplete = true;
   at.scope.failed["pass " + at.out.pass.name] = true;
+  for (Binding& binding : at.scope.bindings) binding.written |= binding.is_out;  // which may be what was wrong
 }
 
 }  // namespace
