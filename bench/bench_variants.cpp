@@ -1,6 +1,7 @@
 // 256 variants of one shader: against both libraries called once a variant, and against the command-line tools; the cache on the frame.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -199,11 +200,41 @@ Rows cache_rows() {
           {"variants/frame/one_shader_edited", edit, "ms", cold, "without a cache"}};
 }
 
+// What `rgc watch` does after an edit of the lighting's kernels: the preview, and the whole build behind it.
+Rows preview_rows() {
+  if (!read_text("passes.rg")) return {};
+  const fs::path folder = fs::temp_directory_path() / ("rgc_bench_preview_" + std::to_string(::getpid()));
+  int edits = 0;
+  const dsl::ReadSource edited = [&](const std::string& path, std::string& why) {
+    constexpr std::string_view kPlace = "0.25 * sum";
+    auto text = reader()(path, why);
+    const size_t at = text && path.ends_with("deferred_light.comp") ? text->find(kPlace) : std::string::npos;
+    if (at != std::string::npos) text->replace(at, kPlace.size(), "(0.25 + 0.001 * " + std::to_string(edits) + ".0) * sum");
+    return text;
+  };
+  CompileOptions options;
+  options.cache_folder = folder;
+  options.until = Until::plans;
+  dsl::Diagnostics diagnostics;
+  const CompileResult before = compile("passes.rg", edited, options, diagnostics);
+  std::vector<double> previews, wholes;
+  for (int round = 0; round < 5; ++round) {
+    ++edits;
+    options.preview = true, options.earlier = &before.spectra;
+    previews.push_back(once_ms([&] { (void)compile("passes.rg", edited, options, diagnostics); }));
+    options.preview = false, options.earlier = nullptr;
+    wholes.push_back(once_ms([&] { (void)compile("passes.rg", edited, options, diagnostics); }));
+  }
+  fs::remove_all(folder);
+  std::sort(previews.begin(), previews.end()), std::sort(wholes.begin(), wholes.end());
+  return {{"variants/frame/preview", previews[2], "ms", wholes[2], "the whole build after that edit, both by the clock"}};
+}
+
 }  // namespace
 
 Rows bench_variants(const std::string&) {
   Rows rows = variant_rows();
-  for (const Rows& more : {share_rows(), cache_rows()}) rows.insert(rows.end(), more.begin(), more.end());
+  for (const Rows& more : {share_rows(), cache_rows(), preview_rows()}) rows.insert(rows.end(), more.begin(), more.end());
   return rows;
 }
 

@@ -45,6 +45,27 @@ bool writes_what(const dsl::Pass& pass, Test test) {
                      [&](const dsl::Access& access) { return access.mode != dsl::Mode::read && test(access); });
 }
 
+// Takes out those that the program knows of and reports them by themselves, so that they hide no others: what is allowed in its place, and what only such passes
+// wanted.
+void report_known(std::vector<Dead>& dead, dsl::Diagnostics& diagnostics) {
+  dsl::Diagnostics probe = diagnostics;
+  std::vector<Dead> others;
+  std::set<size_t> known_want, others_want;  // resources
+  for (size_t i = dead.size(); i-- > 0;) {
+    const dsl::Pass& pass = *dead[i].pass;
+    const dsl::Diagnostic& row = probe.report(DiagnosticKind::ReachesNothing, pass.span, {pass.name, dead[i].reason});
+    const auto wanted_by = [&](const std::set<size_t>& readers) {
+      return writes_what(pass, [&](const dsl::Access& written) { return readers.contains(written.resource.value); });
+    };
+    const bool known = row.allowed() || (wanted_by(known_want) && !wanted_by(others_want));
+    if (row.allowed()) diagnostics.report(row);
+    if (!known) others.push_back(dead[i]);
+    for (const dsl::Access& access : pass.accesses)
+      if (reads(access)) (known ? known_want : others_want).insert(access.resource.value);
+  }
+  dead.assign(others.rbegin(), others.rend());
+}
+
 // Those of which no other dead pass behind them wanted anything come first: they are to blame for the others.
 std::vector<Dead> by_blame(const std::vector<Dead>& dead) {
   std::map<size_t, size_t> last_reader;  // by resource: index in `dead`
@@ -84,7 +105,9 @@ std::string overwritten(const dsl::Graph& graph, const dsl::Pass& pass) {
 
 void check_reach(const dsl::Program& program, dsl::GraphId graph, const std::vector<FramePlan>& plans, dsl::Diagnostics& diagnostics) {
   constexpr size_t kMostNotes = 4;
-  std::vector<Dead> dead = by_blame(dead_passes(program.graphs[graph], plans));
+  std::vector<Dead> dead = dead_passes(program.graphs[graph], plans);
+  report_known(dead, diagnostics);
+  dead = by_blame(dead);
   if (dead.empty()) return;
   for (size_t i = 0; i < std::min(dead.size(), 1 + kMostNotes); ++i)
     if (const std::string why = overwritten(program.graphs[graph], *dead[i].pass); !why.empty()) dead[i].reason = why;

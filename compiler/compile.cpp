@@ -185,6 +185,14 @@ void judge_plans(const CompileResult& result, const CompileOptions& options, dsl
   for (const CompiledGraph& graph : result.graphs) judge(result.program, graph.graph, graph.plans, options.plan, diagnostics);
 }
 
+// Now that every warning has been given.
+void judge_allowances(dsl::Diagnostics& diagnostics) {
+  for (const dsl::Allowance& useless : diagnostics.useless()) {
+    const std::string code(dsl::row(useless.kind).code);
+    diagnostics.report(dsl::Diagnostic(dsl::DiagnosticKind::AllowsNothing, useless.at, {code, "nothing here gives this warning"}).fix(useless.at, ""));
+  }
+}
+
 }  // namespace
 
 // The whole compiler, top to bottom. Each step consumes only what is above it.
@@ -194,6 +202,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // Text to program: lex, parse, check, with all imports.
   tell(options, root_path);
   const std::vector<std::string> profiles = load(root_path, read, result, diagnostics);
+  diagnostics.judge_by(options.warnings);
   if (diagnostics.has_errors() || options.until == Until::program) return result;
 
   // Which kernels serve which tiles; passes with a spectrum become those that run it.
@@ -242,6 +251,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   for (CompiledGraph& graph : result.graphs) graph.plans = plan_all(result, graph, options, diagnostics);
 
   judge_plans(result, options, diagnostics);
+  if (options.fixed_features.empty() && !options.preview) judge_allowances(diagnostics);
   if (diagnostics.has_errors() || options.until == Until::plans) return result;
 
   // Plans and SPIR-V to files.

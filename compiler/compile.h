@@ -40,6 +40,7 @@ struct CompileOptions {
   const std::vector<SpectrumChoice>* earlier = nullptr;        // for a preview: of an earlier build, see SpectrumOptions::earlier
   bool fuse = true;                                // false: every block is a kernel of its own
   HalfRounding halves = HalfRounding::zero;        // of images on the devices this is for; see fusion/conversions.h
+  dsl::WarningPolicy warnings;                     // `--allow CODE`, `--deny CODE`
   std::string command;                             // as it shall stand in the banner of generated files
   std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
 };

@@ -353,6 +353,10 @@ struct GraphDeclaration {  // or, as `technique`, a piece of one
 
 using Declaration = std::variant<Constant, ExtentDeclaration, StructDeclaration, InterfaceDeclaration, SamplerDeclaration, StateDeclaration,
                                  FeatureDeclaration, ConditionDeclaration, EngineSetDeclaration, GraphDeclaration, SpectrumDeclaration>;
+struct Allow {  // `allow RG0388`
+  Name code;
+  Span span, scope;  // scope: of the declaration, block or file that it stands in
+};
 struct File {
   FileId file;
   Name module;
@@ -360,6 +364,7 @@ struct File {
   std::vector<ProfileTarget> profiles;
   std::vector<Import> imports;
   std::vector<Declaration> declarations;
+  std::vector<Allow> allows;
   std::vector<Name> private_words;  // of each declaration; empty: other modules see it
   bool has_error = false;           // something did not parse
   bool lost_names = false;          // ... and it was a declaration: unknown names may be our fault

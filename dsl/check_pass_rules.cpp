@@ -333,6 +333,14 @@ bool may_stand_together(const Access& a, const Access& b) {
 
 bool conflict(const Rules& rules, const Access& a, const Access& b) { return overlap(rules, a, b) && !may_stand_together(a, b); }
 
+// Two ways to use one thing, by their roles, or where those are one by what they do.
+std::pair<std::string, std::string> told_apart(const Access& a, const Access& b) {
+  constexpr const char* kModes[] = {"read ", "write ", "update ", "atomic "};
+  const bool same = a.role == b.role && a.mode != b.mode;
+  const auto words = [&](const Access& access) { return (same ? kModes[static_cast<size_t>(access.mode)] : "") + std::string(word_of(access.role)); };
+  return {words(a), words(b)};
+}
+
 // What is wrong by itself contradicts nothing.
 void check_conflicts(const Rules& rules, const std::vector<bool>& wrong) {
   std::unordered_map<uint32_t, std::vector<const Access*>> seen;  // by resource
@@ -341,9 +349,8 @@ void check_conflicts(const Rules& rules, const std::vector<bool>& wrong) {
     auto& others = seen[access.resource.value];
     for (const Access* other : others) {
       if (!conflict(rules, *other, access)) continue;
-      rules.checker
-          .report(DiagnosticKind::AccessesConflict, access.span,
-                  {rules.pass.name, rules.resource(access).name, word_of(other->role), word_of(access.role)})
+      const auto [one, two] = told_apart(*other, access);
+      rules.checker.report(DiagnosticKind::AccessesConflict, access.span, {rules.pass.name, rules.resource(access).name, one, two})
           .note(DiagnosticKind::OtherAccess, other->span);
       break;
     }
@@ -367,7 +374,7 @@ void check_names(const Rules& rules) {
   };
   for (const Access& access : rules.pass.accesses)
     if (is_shader_role(access.role) || access.role == Role::color) claim(access.name, {access.span, &access});
-  for (const ParamsUse& use : rules.pass.params) claim(rules.graph.params[use.id].name, {use.span});
+  for (const ParamsUse& use : rules.pass.params) claim(use.name, {use.span});
 }
 
 }  // namespace

@@ -206,14 +206,14 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
     const StructId type = find_struct(at.checker, at.scope.module, *node.type);
     if (!type.valid() || !check_not_packed(at.checker, type, node.type->span)) return void(at.out.dropped = true);
     const ParamsId own = at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span});
-    at.out.pass.params.push_back({own, node.span});
+    at.out.pass.params.push_back({name, own, node.span});
     return;
   }
   const auto bound =
       std::find_if(at.scope.bindings.rbegin(), at.scope.bindings.rend(), [&](const Binding& binding) { return binding.name == node.name.text; });
-  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back({bound->params, node.span});
+  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back({name, bound->params, node.span});
   const auto found = at.scope.params.find(name);
-  if (found != at.scope.params.end()) return at.out.pass.params.push_back({found->second, node.span});
+  if (found != at.scope.params.end()) return at.out.pass.params.push_back({name, found->second, node.span});
   if (at.scope.failed.count(name) || at.checker.lost_names) return void(at.out.dropped = true);
   std::vector<std::string_view> candidates;
   for (const Params& params : at.scope.graph.params)
@@ -466,6 +466,7 @@ bool claim_name(Builder& at) {
 void drop_pass(Builder& at) {
   at.scope.incomplete = true;
   at.scope.failed["pass " + at.out.pass.name] = true;
+  for (Binding& binding : at.scope.bindings) binding.written |= binding.is_out;  // which may be what was wrong
 }
 
 }  // namespace

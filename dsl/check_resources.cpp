@@ -162,6 +162,17 @@ void set_dimension(Builder& at, uint8_t axes) {
   if (wanted != axes) fail(at, DiagnosticKind::DimensionAxes, at.node.size->span, {at.resource.name, std::to_string(wanted), std::to_string(axes)});
 }
 
+// `64*64`, which is a number and so one axis: said aloud by `1d`, else likely a slip of `64x64`.
+void check_product(Builder& at) {
+  const ast::Expr& size = *at.node.size;
+  const bool product = size.kind == ast::ExprKind::mul && size.operands[0].kind == ast::ExprKind::integer && size.operands[1].kind == ast::ExprKind::integer;
+  const bool said = std::any_of(at.node.settings.begin(), at.node.settings.end(), [](const ast::Setting& each) { return each.word.text == "1d"; });
+  if (!product || said) return;
+  const std::string two = std::string(size.operands[0].text) + "x" + std::string(size.operands[1].text);
+  const std::string texels = std::to_string(size.operands[0].integer * size.operands[1].integer);
+  at.checker.diagnostics.report(Diagnostic(DiagnosticKind::OneAxis, size.span, {at.resource.name, texels, two}));
+}
+
 void read_size(Builder& at) {
   if (!at.node.size) return;
   const Value size = evaluate_expr(at.checker, &at.scope, at.scope.module, *at.node.size);
@@ -173,6 +184,7 @@ void read_size(Builder& at) {
     *out[axis] = to_expr(at.checker, size.at[axis]);
   }
   set_dimension(at, size.axes);
+  check_product(at);
 }
 
 int64_t longest_side(Builder& at, const std::vector<int64_t>& extents) {

@@ -245,8 +245,11 @@ void check_values_possible(Checker& checker, FeatureId id) {
     bool possible = false;
     const bool finished = each_configuration(checker.program.features, decided, none, kBudget, [&](const FeatureValues&) { return possible = true; });
     if (possible || !finished) continue;
-    checker.report(DiagnosticKind::ValueImpossible, culprit(feature, value), {feature.name, feature.values[value]})
-        .note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
+    Diagnostic& impossible = checker.report(DiagnosticKind::ValueImpossible, culprit(feature, value), {feature.name, feature.values[value]})
+                                 .note(DiagnosticKind::DeclaredHere, feature.span, {feature.name});
+    for (const Feature& other : checker.program.features)
+      for (const Feature::Rule& rule : other.rules)
+        if (rule.needs.feature == id) impossible.note(DiagnosticKind::AccessUsedHere, rule.span, {feature.name});
     return;
   }
 }

@@ -32,6 +32,14 @@ bool kinds_fit(Checker& checker, const GraphScope& scope, const TransferWord& wo
   return false;
 }
 
+// What vkCmdBlitImage converts.
+bool blit_fits(Format from, Format to) {
+  const FormatInfo &a = info(from), &b = info(to);
+  if (!a.is_color() || !b.is_color()) return from == to;
+  const auto kind = [](const FormatInfo& format) { return format.is_integer() ? format.numeric : Numeric::floating; };
+  return kind(a) == kind(b);
+}
+
 bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& src, const Place& dst, Span span) {
   const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
   if (src.resource == dst.resource && src.age == dst.age && src.range == dst.range) {
@@ -44,6 +52,10 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
   }
   if (word.kind == TransferKind::resolve && from.format != to.format) {
     checker.report(DiagnosticKind::ResolveFormats, span, {from.name, name(from.format), to.name, name(to.format)});
+    return false;
+  }
+  if (word.kind == TransferKind::blit && is_image(scope, src) && is_image(scope, dst) && !blit_fits(from.format, to.format)) {
+    checker.report(DiagnosticKind::BlitFormats, span, {from.name, name(from.format), to.name, name(to.format)});
     return false;
   }
   const bool both_images = is_image(scope, src) && is_image(scope, dst);

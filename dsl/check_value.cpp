@@ -297,6 +297,16 @@ Value from_symbol(Evaluator& at, uint32_t symbol, const ast::Expr& expr) {
   return error_value();
 }
 
+// `WIDTHxHEIGHT`, which is one word: sizes of names stand in brackets.
+std::string meant_axes(std::string_view word, const std::vector<std::string_view>& names) {
+  for (size_t at = word.find('x'); at != std::string_view::npos; at = word.find('x', at + 1)) {
+    const std::string_view first = word.substr(0, at), second = word.substr(at + 1);
+    const auto known = [&](std::string_view name) { return std::find(names.begin(), names.end(), name) != names.end(); };
+    if (known(first) && known(second)) return "[" + std::string(first) + ", " + std::string(second) + "]";
+  }
+  return "";
+}
+
 void report_unknown_value(Evaluator& at, const ast::Expr& expr) {
   if (at.checker.lost_names || !at.checker.unknown.emplace(std::to_string(at.module) + " " + std::string(expr.text)).second) return;
   if (report_if_private(at.checker, at.module, expr.text, expr.span)) return;
@@ -310,8 +320,10 @@ void report_unknown_value(Evaluator& at, const ast::Expr& expr) {
     for (const Resource& resource : at.scope->graph.resources) names.push_back(resource.name);
   }
   Diagnostic diagnostic(DiagnosticKind::UnknownName, expr.span, {"constant, extent or resource", std::string(expr.text)});
-  const Guess guess = closest(expr.text, names);
-  suggest(diagnostic, expr.span, guess);
+  if (const std::string axes = meant_axes(expr.text, names); !axes.empty())
+    diagnostic.fix(expr.span, axes);
+  else
+    suggest(diagnostic, expr.span, closest(expr.text, names));
   at.checker.diagnostics.report(std::move(diagnostic));
 }
 

@@ -1,6 +1,7 @@
 #include "dsl/diagnostics.h"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "dsl/check_macro.h"
@@ -18,6 +19,11 @@ constexpr DiagnosticRow kRows[] = {
 #undef RG_DIAGNOSTIC
 };
 
+bool speaks_of(const Allowance& allowance, const Diagnostic& diagnostic) {
+  const Span &scope = allowance.scope, &span = diagnostic.span;
+  return allowance.kind == diagnostic.kind && scope.file == span.file && scope.begin <= span.begin && span.end <= scope.end;
+}
+
 auto key(const Diagnostic& d) { return std::make_tuple(d.span.file.value, d.span.begin, d.span.end, row(d.kind).code, std::cref(d.arguments)); }
 
 }  // namespace
@@ -28,6 +34,12 @@ std::vector<DiagnosticKind> all_diagnostic_kinds() {
   std::vector<DiagnosticKind> kinds;
   for (size_t i = 0; i < std::size(kRows); ++i) kinds.push_back(static_cast<DiagnosticKind>(i));
   return kinds;
+}
+
+std::optional<DiagnosticKind> kind_of_code(std::string_view code) {
+  for (size_t i = 0; i < std::size(kRows); ++i)
+    if (kRows[i].code == code) return static_cast<DiagnosticKind>(i);
+  return std::nullopt;
 }
 
 Diagnostic::Diagnostic(DiagnosticKind kind_, Span span_, std::vector<std::string> arguments_)
@@ -60,20 +72,53 @@ std::string Diagnostic::message() const {
   return text;
 }
 
-Diagnostic& Diagnostics::report(Diagnostic diagnostic) { return rows_.emplace_back(std::move(diagnostic)); }
+// What a file says goes before what the command line says.
+void Diagnostics::judge(Diagnostic& diagnostic) const {
+  if (row(diagnostic.kind).severity != Severity::warning) return;
+  const auto names = [&](const std::vector<DiagnosticKind>& kinds) { return std::find(kinds.begin(), kinds.end(), diagnostic.kind) != kinds.end(); };
+  const auto known = std::find_if(allowances_.begin(), allowances_.end(), [&](const Allowance& each) { return speaks_of(each, diagnostic); });
+  if (known != allowances_.end())
+    diagnostic.standing = Standing::allowed_here, diagnostic.allowed_at = known->at;
+  else if (names(policy_.allowed))
+    diagnostic.standing = Standing::allowed_outside;
+  else if (names(policy_.denied))
+    diagnostic.standing = Standing::denied;
+}
+
+Diagnostic& Diagnostics::report(Diagnostic diagnostic) {
+  judge(diagnostic);
+  return rows_.emplace_back(std::move(diagnostic));
+}
 Diagnostic& Diagnostics::report(DiagnosticKind kind, Span span, std::vector<std::string> arguments) {
   return report(Diagnostic(kind, span, std::move(arguments)));
 }
 
-bool Diagnostics::has_errors() const {
-  return std::any_of(rows_.begin(), rows_.end(), [](const Diagnostic& d) { return row(d.kind).severity == Severity::error; });
+void Diagnostics::allow(Allowance allowance) {
+  allowances_.push_back(allowance);
+  for (Diagnostic& diagnostic : rows_) judge(diagnostic);
 }
 
-std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most) {
+void Diagnostics::judge_by(WarningPolicy policy) {
+  policy_ = std::move(policy);
+  for (Diagnostic& diagnostic : rows_) judge(diagnostic);
+}
+
+std::vector<Allowance> Diagnostics::useless() const {
+  std::vector<Allowance> all;
+  for (const Allowance& each : allowances_)
+    if (std::none_of(rows_.begin(), rows_.end(), [&](const Diagnostic& diagnostic) { return speaks_of(each, diagnostic); })) all.push_back(each);
+  return all;
+}
+
+bool Diagnostics::has_errors() const {
+  return std::any_of(rows_.begin(), rows_.end(), [](const Diagnostic& d) { return d.severity() == Severity::error; });
+}
+
+std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most, bool with_allowed) {
   std::vector<Diagnostic> first;
   size_t errors = 0, others = 0;
   for (const Diagnostic& diagnostic : diagnostics.rows())
-    if ((row(diagnostic.kind).severity == Severity::error ? errors : others)++ < most) first.push_back(diagnostic);
+    if ((with_allowed || !diagnostic.allowed()) && (diagnostic.severity() == Severity::error ? errors : others)++ < most) first.push_back(diagnostic);
   const auto missing = [&](size_t count, const std::string& what) {
     return count <= most ? "" : std::to_string(count - most) + " more " + what + (count - most == 1 ? "" : "s");
   };
@@ -88,6 +133,13 @@ void Diagnostics::sort() {
   std::stable_sort(rows_.begin(), rows_.end(), [](const Diagnostic& a, const Diagnostic& b) { return key(a) < key(b); });
   const auto same = [](const Diagnostic& a, const Diagnostic& b) { return key(a) == key(b); };
   rows_.erase(std::unique(rows_.begin(), rows_.end(), same), rows_.end());
+}
+
+void Diagnostics::drop_repeats() {
+  std::set<std::tuple<DiagnosticKind, uint32_t, uint32_t, uint32_t>> seen;
+  std::erase_if(rows_, [&](const Diagnostic& each) {
+    return each.span.file.valid() && !seen.emplace(each.kind, each.span.file.value, each.span.begin, each.span.end).second;
+  });
 }
 
 }  // namespace rg::dsl

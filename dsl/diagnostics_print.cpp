@@ -58,7 +58,7 @@ void print_fix(Printer& printer, const FixIt& fix) {
 
 void print_one(Printer& printer, const Diagnostic& diagnostic) {
   const DiagnosticRow& info = row(diagnostic.kind);
-  const auto severity = static_cast<size_t>(info.severity);
+  const auto severity = static_cast<size_t>(diagnostic.severity());
   const SourceFile* file = file_of(printer.files, diagnostic.span);
   if (file) {
     const Position at = file->position(diagnostic.span.begin);
@@ -81,7 +81,7 @@ nlohmann::ordered_json place(const SourceFiles& files, Span span) {
 nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagnostic) {
   const DiagnosticRow& info = row(diagnostic.kind);
   nlohmann::ordered_json json = {
-      {"code", info.code}, {"name", info.name}, {"severity", kSeverityNames[static_cast<size_t>(info.severity)]}, {"message", diagnostic.message()}};
+      {"code", info.code}, {"name", info.name}, {"severity", kSeverityNames[static_cast<size_t>(diagnostic.severity())]}, {"message", diagnostic.message()}};
   json.update(place(files, diagnostic.span));
   json["notes"] = nlohmann::ordered_json::array();
   for (const Diagnostic& child : diagnostic.notes) json["notes"].push_back(to_json(files, child));
@@ -91,6 +91,10 @@ nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagn
     entry["text"] = fix.text;
     json["fixes"].push_back(entry);
   }
+  if (!diagnostic.allowed()) return json;
+  nlohmann::ordered_json suppression = {{"kind", diagnostic.standing == Standing::allowed_here ? "inSource" : "external"}};
+  if (diagnostic.standing == Standing::allowed_here) suppression.update(place(files, diagnostic.allowed_at));
+  json["suppressions"] = nlohmann::ordered_json::array({suppression});
   return json;
 }
 
@@ -98,13 +102,13 @@ nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagn
 
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour) {
   Printer printer{files, colour, {}};
-  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPeople)) print_one(printer, diagnostic);
+  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPeople, false)) print_one(printer, diagnostic);
   return printer.out;
 }
 
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPrograms)) json.push_back(to_json(files, diagnostic));
+  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPrograms, true)) json.push_back(to_json(files, diagnostic));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@ struct Writer {
   const SourceFiles& files;
   Json rules = Json::array();
   std::map<std::string_view, size_t> rule_index;  // by code
+  bool suppresses = false;  // some result is: then each has to say
 };
 
 bool has_place(const SourceFiles& files, Span span) { return span.file.valid() && span.file.value < files.size(); }
@@ -82,9 +84,17 @@ Json fixes(const Writer& writer, const Diagnostic& diagnostic) {
   return all;
 }
 
+Json suppressions(const Writer& writer, const Diagnostic& diagnostic) {
+  if (!diagnostic.allowed()) return Json::array();
+  const bool here = diagnostic.standing == Standing::allowed_here;
+  Json one = {{"kind", here ? "inSource" : "external"}};
+  if (here && has_place(writer.files, diagnostic.allowed_at)) one["location"] = location(writer.files, diagnostic.allowed_at);
+  return Json::array({std::move(one)});
+}
+
 Json result(Writer& writer, const Diagnostic& diagnostic) {
   const DiagnosticRow& info = row(diagnostic.kind);
-  Json json = {{"ruleId", info.code}, {"ruleIndex", rule_of(writer, info)}, {"level", level_of(info.severity)}};
+  Json json = {{"ruleId", info.code}, {"ruleIndex", rule_of(writer, info)}, {"level", level_of(diagnostic.severity())}};
   std::string text = diagnostic.message();
   for (const Diagnostic& note : diagnostic.notes)
     if (!has_place(writer.files, note.span)) text += "; " + note.message();
@@ -93,15 +103,17 @@ Json result(Writer& writer, const Diagnostic& diagnostic) {
   if (has_place(writer.files, diagnostic.span)) json["locations"].push_back(location(writer.files, diagnostic.span));
   if (Json places = related(writer, diagnostic); !places.empty()) json["relatedLocations"] = std::move(places);
   if (Json changes = fixes(writer, diagnostic); !changes.empty()) json["fixes"] = std::move(changes);
+  if (writer.suppresses) json["suppressions"] = suppressions(writer, diagnostic);
   return json;
 }
 
 }  // namespace
 
 std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files) {
-  Writer writer{files, Json::array(), {}};
+  const std::vector<Diagnostic> shown = first_of(diagnostics, kMostForPrograms, true);
+  Writer writer{files, Json::array(), {}, std::any_of(shown.begin(), shown.end(), [](const Diagnostic& each) { return each.allowed(); })};
   Json results = Json::array();
-  for (const Diagnostic& diagnostic : first_of(diagnostics, kMostForPrograms)) results.push_back(result(writer, diagnostic));
+  for (const Diagnostic& diagnostic : shown) results.push_back(result(writer, diagnostic));
   const Json driver = {{"name", "rgc"}, {"rules", writer.rules}};
   const Json run = {{"tool", {{"driver", driver}}}, {"columnKind", "unicodeCodePoints"}, {"results", std::move(results)}};
   const Json log = {{"$schema", "https://json.schemastore.org/sarif-2.1.0.json"}, {"version", "2.1.0"}, {"runs", Json::array({run})}};

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <set>
-#include <tuple>
 #include <unordered_map>
 
 #include "dsl/check.h"
@@ -104,6 +102,27 @@ void check_module_name(Loader& loader, const Module& module) {
   }
 }
 
+// Why a code that stands behind `allow` is none of a warning; empty: it is.
+std::string why_not_allowed(std::optional<DiagnosticKind> kind) {
+  if (!kind) return "no diagnostic has this code";
+  const Severity severity = row(*kind).severity;
+  return severity == Severity::warning ? "" : severity == Severity::error ? "it is an error, and errors are mended" : "it is a note that goes with others";
+}
+
+void take_allowances(const ast::File& tree, Diagnostics& diagnostics) {
+  for (const ast::Allow& allow : tree.allows) {
+    const auto kind = kind_of_code(allow.code.text);
+    if (const std::string why = why_not_allowed(kind); why.empty()) {
+      diagnostics.allow({*kind, allow.scope, allow.span});
+    } else {
+      Diagnostic diagnostic(DiagnosticKind::AllowsNothing, allow.span, {std::string(allow.code.text.substr(0, 40)), why});
+      for (const DiagnosticKind each : all_diagnostic_kinds())
+        if (row(each).name == allow.code.text) diagnostic.fix(allow.code.span, std::string(row(each).code));
+      diagnostics.report(std::move(diagnostic));
+    }
+  }
+}
+
 std::optional<uint32_t> load(Loader& loader, const std::string& path, Span span, uint32_t depth) {
   loader.visits[path] = {true, UINT32_MAX, span};
   auto text = read_text(loader, path, span);
@@ -125,16 +144,6 @@ std::optional<uint32_t> load(Loader& loader, const std::string& path, Span span,
   return index;
 }
 
-// A mistake inside a loop is made once, however often the loop runs.
-Diagnostics without_repeats(const Diagnostics& all) {
-  Diagnostics kept;
-  std::set<std::tuple<DiagnosticKind, uint32_t, uint32_t, uint32_t>> seen;
-  for (const Diagnostic& diagnostic : all.rows())
-    if (!diagnostic.span.file.valid() || seen.emplace(diagnostic.kind, diagnostic.span.file.value, diagnostic.span.begin, diagnostic.span.end).second)
-      kept.report(diagnostic);
-  return kept;
-}
-
 }  // namespace
 
 FrontEndResult load_program(const std::string& root_path, const ReadSource& read, Diagnostics& diagnostics) {
@@ -142,8 +151,9 @@ FrontEndResult load_program(const std::string& root_path, const ReadSource& read
   Loader loader{read, diagnostics, folder_of(root_path), {}, {}, {}};
   const bool loaded = load(loader, root_path.substr(loader.root_folder.size()), {}, 0).has_value();
   if (loaded) result.program = check(loader.modules, diagnostics);
+  for (const Module& module : loader.modules) take_allowances(module.tree, diagnostics);
   for (SourceFile& file : loader.files) result.files.add(std::move(file));
-  diagnostics = without_repeats(diagnostics);
+  diagnostics.drop_repeats();  // a mistake inside a loop is made once, however often the loop runs
   diagnostics.sort();
   return result;
 }

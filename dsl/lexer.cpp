@@ -1,5 +1,6 @@
 #include "dsl/lexer.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -99,11 +100,29 @@ TokenKind take_number(Lexer& lexer) {
   return TokenKind::identifier;
 }
 
+// `64X64`, `64x 64`, `64 \u00d7 64`: where what was found ends, or a blank behind it, another axis begins.
+uint32_t next_axis(const Lexer& lexer) {
+  uint32_t ahead = 0;
+  while (lexer.peek(ahead) == ' ') ++ahead;
+  return is_digit(lexer.peek(ahead)) ? lexer.at + ahead : 0;
+}
+
+// What a number was to be that other places write in capitals or with a blank; empty: something else.
+std::string meant_dimensions(const Lexer& lexer, std::string_view word) {
+  std::string meant(word);
+  for (char& c : meant) c = c == 'X' ? 'x' : c;
+  const bool numbers = std::all_of(meant.begin(), meant.end(), [](char c) { return is_digit(c) || c == 'x'; }) && meant.find("xx") == std::string::npos;
+  return numbers && (meant.back() != 'x' || next_axis(lexer) != 0) ? meant : "";
+}
+
 TokenKind finish_number(Lexer& lexer, uint32_t begin) {
   const TokenKind kind = take_number(lexer);
   if (!is_letter(lexer.peek())) return kind;
   while (is_word(lexer.peek())) ++lexer.at;
-  lexer.diagnostics.report(DiagnosticKind::MalformedNumber, lexer.span(begin), {std::string(lexer.text.substr(begin, lexer.at - begin))});
+  const std::string_view word = lexer.text.substr(begin, lexer.at - begin);
+  Diagnostic& malformed = lexer.diagnostics.report(DiagnosticKind::MalformedNumber, lexer.span(begin), {std::string(word)});
+  if (const std::string meant = meant_dimensions(lexer, word); !meant.empty())
+    malformed.fix({lexer.file, begin, meant.back() == 'x' ? next_axis(lexer) : lexer.at}, meant);
   return TokenKind::invalid;
 }
 
@@ -116,6 +135,17 @@ TokenKind take_string(Lexer& lexer, uint32_t begin) {
     lexer.diagnostics.report(DiagnosticKind::UnterminatedString, lexer.span(begin)).fix({lexer.file, lexer.at, lexer.at}, "\"");
   }
   return TokenKind::string;
+}
+
+// `64\u00d764`
+void suggest_times(const Lexer& lexer, uint32_t begin, Diagnostic& invalid) {
+  constexpr std::string_view kTimes = "\u00d7";
+  if (lexer.text.substr(begin, kTimes.size()) != kTimes) return;
+  uint32_t first = begin, last = begin + static_cast<uint32_t>(kTimes.size());
+  while (first > 0 && lexer.text[first - 1] == ' ') --first;
+  while (last < lexer.text.size() && lexer.text[last] == ' ') ++last;
+  const bool between = first > 0 && is_digit(lexer.text[first - 1]) && last < lexer.text.size() && is_digit(lexer.text[last]);
+  if (between) invalid.fix({lexer.file, first, last}, "x");
 }
 
 // Whole runs, so that a pasted word of another script is one mistake.
@@ -135,7 +165,8 @@ TokenKind take_invalid(Lexer& lexer, uint32_t begin) {
   std::string shown(lexer.text.substr(begin, lexer.at - begin));
   for (char& c : shown)
     if (static_cast<unsigned char>(c) < 32 || c == 127) c = '?';
-  lexer.diagnostics.report(DiagnosticKind::InvalidCharacter, lexer.span(begin), {shown});
+  Diagnostic& invalid = lexer.diagnostics.report(DiagnosticKind::InvalidCharacter, lexer.span(begin), {shown});
+  suggest_times(lexer, begin, invalid);
   return TokenKind::invalid;
 }
 

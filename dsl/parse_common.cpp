@@ -10,11 +10,11 @@ using Words = std::initializer_list<std::string_view>;
 
 constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "private",   "const", "extent", "struct",    "interface",
                                               "sampler", "state",  "feature", "condition", "set",   "graph",  "technique", "spectrum"};
-constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn"};
+constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn", "allow"};
 constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
                                             "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
                                             "clear",  "fill",   "host",   "after",    "keep",  "fullscreen", "features", "spectrum",
-                                            "with",   "block",  "multiview"};
+                                            "with",   "block",  "multiview", "allow"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {
@@ -120,6 +120,18 @@ void Parser::expected(const std::string& what) {
 void Parser::unexpected(const std::string& what) {
   if (is(TokenKind::invalid)) return expected(what);
   complain({DiagnosticKind::UnexpectedToken, here(), {what, found(*this)}});
+}
+
+AllowScope::~AllowScope() {
+  for (size_t i = first_; i < parser_.allows.size(); ++i)
+    if (!parser_.allows[i].scope.file.valid()) parser_.allows[i].scope = parser_.since(begin_);
+}
+
+void parse_allow(Parser& parser) {
+  const uint32_t begin = parser.peek().begin;
+  parser.take();
+  const ast::Name code = parser.expect_name("the code of a warning");
+  if (!code.empty()) parser.allows.push_back({code, parser.since(begin), {}});
 }
 
 Nested::Nested(Parser& parser_) : parser(parser_), fits(++parser_.nesting <= kMaxNesting) {

@@ -52,22 +52,6 @@ Constant parse_constant(Parser& parser) {
   return constant;
 }
 
-ExtentDeclaration parse_extent(Parser& parser) {
-  ExtentDeclaration extent;
-  parser.take();
-  extent.name = parser.expect_name("the name of the extent");
-  parser.expect(TokenKind::equal);
-  const uint32_t begin = parser.peek().begin;
-  if (!parser.silent && !parser.expect_one_of("`runtime`", {"runtime"}).empty()) extent.initial = parse_arguments(parser);
-  for (bool more = true; more && !parser.silent;) {
-    more = false;
-    if (extent.minimum.empty() && parser.is_word("min")) parser.take(), extent.minimum = parse_arguments(parser), more = true;
-    if (extent.maximum.empty() && parser.is_word("max")) parser.take(), extent.maximum = parse_arguments(parser), more = true;
-  }
-  extent.span = parser.since(begin);
-  return extent;
-}
-
 InterfaceDeclaration parse_interface(Parser& parser) {
   InterfaceDeclaration interface;
   parser.take();
@@ -160,6 +144,7 @@ Parameter parse_surface(Parser& parser) {
 const char* port_type(const Parameter& parameter) { return parameter.kind == Parameter::Kind::image ? "a format" : "an element type"; }
 
 Parameter parse_parameter(Parser& parser) {
+  const AllowScope scope(parser);
   const uint32_t begin = parser.peek().begin;
   const bool prefixed = parser.is(TokenKind::identifier, 1);
   if (prefixed && parser.is_word("surface")) return parse_surface(parser);
@@ -366,6 +351,8 @@ void parse_item(Parser& parser, std::vector<Item>& items) {
     items.push_back({parse_fuse(parser)});
   else if (word == "assert" || word == "warn")
     items.push_back({parse_assertion(parser)});
+  else if (word == "allow")
+    parse_allow(parser);
   else if (!rejoin_pass(parser, items))
     complain_about_item(parser);
 }
@@ -445,6 +432,8 @@ void parse_any_declaration(Parser& parser, File& file) {
     out.push_back(parse_spectrum(parser));
   else if (word == "graph" || word == "technique")
     out.push_back(parse_graph(parser, word == "technique"));
+  else if (word == "allow")
+    parse_allow(parser);
   else if (!rejoin_graph(parser, file))
     complain_about_declaration(parser);
 }
@@ -465,10 +454,12 @@ void parse_one_declaration(Parser& parser, File& file) {
 }  // namespace
 
 void parse_items(Parser& parser, std::vector<Item>& items) {
+  const AllowScope scope(parser);
   parse_block(parser, Level::graph, [&] { parse_item(parser, items); });
 }
 
 GraphDeclaration parse_graph(Parser& parser, bool is_technique) {
+  const AllowScope scope(parser);
   GraphDeclaration graph;
   graph.is_technique = is_technique;
   parser.take();
@@ -476,7 +467,7 @@ GraphDeclaration parse_graph(Parser& parser, bool is_technique) {
   parse_parameters(parser, graph);
   graph.has_error = parser.silent;
   parser.lost_names |= parser.silent;
-  parse_items(parser, graph.body);
+  parse_block(parser, Level::graph, [&] { parse_item(parser, graph.body); });
   return graph;
 }
 
@@ -490,6 +481,9 @@ File parse(FileId file_id, std::string_view text, const Tokens& tokens, Diagnost
     if (parser.silent) resynchronise(parser, Level::file);
     if (parser.at == before) parser.take();
   }
+  for (Allow& allow : parser.allows)
+    if (!allow.scope.file.valid()) allow.scope = {file_id, 0, static_cast<uint32_t>(text.size())};
+  file.allows = std::move(parser.allows);
   file.has_error = parser.any_error;
   file.lost_names = parser.lost_names;
   file.lost_structure = parser.lost_structure;

@@ -91,7 +91,7 @@ ast::ShaderStatement parse_shader(Parser& parser) {
     shader.paths.push_back({path, parser.here()});
     parser.take();
   } while (parser.is(TokenKind::string));
-  if (!parser.silent && parser.accept_word("group"))
+  if (!parser.silent && parser.accept_word("group") && !complain_about_axes(parser, AxesForm::group))
     for (int axis = 0; axis < 3 && parser.is(TokenKind::integer) + parser.is(TokenKind::identifier) + parser.is(TokenKind::left_paren) > 0; ++axis) {
       if (axis > 0 && (parser.peek().starts_line || (shader.block && parser.is_word("scan")))) break;
       shader.group.push_back(parse_expression(parser, "a group size"));
@@ -107,7 +107,7 @@ ast::DispatchStatement parse_dispatch(Parser& parser) {
   const uint32_t begin = parser.peek().begin;
   parser.take();
   dispatch.how = parser.expect_one_of("`over`, `groups`, `indirect` or `host`", {"over", "groups", "indirect", "host"});
-  if (!parser.silent && dispatch.how.text != "host") dispatch.size = parse_expression(parser, "a size");
+  if (!parser.silent && dispatch.how.text != "host") dispatch.size = parse_size(parser);
   dispatch.span = parser.since(begin);
   complain_about_rest(parser, {});
   return dispatch;
@@ -237,11 +237,11 @@ constexpr VerbWord kVerbs[] = {{"read", ast::Verb::read},      {"write", ast::Ve
                                {"atomic", ast::Verb::atomic},  {"color", ast::Verb::color}, {"depth", ast::Verb::depth},
                                {"stencil", ast::Verb::stencil}};
 
-// `update RES` alone is the transfer of host bytes; with `as` it is an access.
+// `update RES` alone is the transfer of host bytes; with `as` it is an access, and with `clear` and a value, which no statement begins with.
 bool is_transfer_update(const Parser& parser, const PassDeclaration& pass) {
   if (!parser.is_word("update") || pass.kind.text != "transfer") return false;
   for (size_t ahead = 1; !parser.peek(ahead).starts_line && !parser.is(TokenKind::right_brace, ahead); ++ahead)
-    if (parser.is_word("as", ahead)) return false;
+    if (parser.is_word("as", ahead) || (ahead > 1 && parser.is_word("clear", ahead) && !parser.is(TokenKind::identifier, ahead + 1))) return false;
   return true;
 }
 
@@ -268,7 +268,10 @@ void complain_about_statement(Parser& parser) {
 
 void parse_statement(Parser& parser, PassDeclaration& pass) {
   const size_t count = pass.statements.size();
-  if (!parser.is(TokenKind::identifier) || !begins_statement(parser.word())) {
+  if (parser.is_word("allow")) {
+    parse_allow(parser);
+    complain_about_rest(parser, {});
+  } else if (!parser.is(TokenKind::identifier) || !begins_statement(parser.word())) {
     complain_about_statement(parser);
   } else if (is_transfer_update(parser, pass)) {
     pass.statements.push_back(parse_transfer(parser));
@@ -305,6 +308,7 @@ void parse_pass_body(Parser& parser, PassDeclaration& pass) {
 }
 
 ast::BundleDeclaration parse_bundle(Parser& parser) {
+  const AllowScope scope(parser);
   ast::BundleDeclaration bundle;
   PassDeclaration body;
   parser.take();
@@ -317,6 +321,7 @@ ast::BundleDeclaration parse_bundle(Parser& parser) {
 }
 
 PassDeclaration parse_pass(Parser& parser) {
+  const AllowScope scope(parser);
   PassDeclaration pass;
   parser.take();
   pass.name = parser.expect_name("the name of the pass");

@@ -45,6 +45,7 @@ bool parse_resource_setting(Parser& parser, ast::ResourceDeclaration& resource) 
     resource.settings.push_back(parse_setting(parser, shape));
     return true;
   }
+  if (parser.is_word("allow")) return !parser.peek().starts_line && (parse_allow(parser), true);
   if (parser.is_word("init")) return parse_init(parser, resource), true;
   return parse_boundary(parser, resource);
 }
@@ -83,7 +84,7 @@ ast::ResourceDeclaration finish(Parser& parser, ast::ResourceDeclaration resourc
 
 ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclaration image) {
   image.format = parser.expect_name("a format");
-  if (!parser.silent) image.size = parse_expression(parser, "a size");
+  if (!parser.silent) image.size = parse_size(parser);
   return finish(parser, std::move(image));
 }
 
@@ -121,6 +122,7 @@ ast::Usage parse_usage(Parser& parser) {
 }
 
 ast::ResourceDeclaration parse_resource(Parser& parser) {
+  const AllowScope scope(parser);
   ast::ResourceDeclaration resource;
   resource.is_buffer = parser.is_word("buffer");
   parser.take();
@@ -144,6 +146,7 @@ ast::ResourceDeclaration parse_resource(Parser& parser) {
 }
 
 ast::ResourceDeclaration parse_member(Parser& parser) {
+  const AllowScope scope(parser);
   ast::ResourceDeclaration member;
   member.name = parser.expect_name("a member");
   parser.expect(TokenKind::colon);

@@ -30,6 +30,7 @@ struct Parser {
   bool any_error = false;
   bool lost_names = false;      // a declaration was skipped
   bool lost_structure = false;  // braces do not match: what stands inside what is a guess
+  std::vector<ast::Allow> allows = {};
 
   const Token& peek(size_t ahead = 0) const { return tokens[std::min(at + ahead, tokens.size() - 1)]; }
   std::string_view word(size_t ahead = 0) const { return text_of(peek(ahead), text); }
@@ -64,6 +65,20 @@ struct Nested {  // counts one level of nesting; complains when it is too deep
   ~Nested() { --parser.nesting; }
 };
 
+// What is allowed while this lives, and not further in, is allowed from `begin` to where it ends.
+class AllowScope {
+ public:
+  explicit AllowScope(Parser& parser) : AllowScope(parser, parser.peek().begin) {}
+  AllowScope(Parser& parser, uint32_t begin) : parser_(parser), begin_(begin), first_(parser.allows.size()) {}
+  ~AllowScope();
+
+ private:
+  Parser& parser_;
+  uint32_t begin_;
+  size_t first_;
+};
+void parse_allow(Parser& parser);
+
 // Words that begin a declaration, an item of a graph, a statement of a pass.
 bool begins_declaration(std::string_view word);
 bool begins_item(std::string_view word);
@@ -86,6 +101,11 @@ bool open_block(Parser& parser);
 void close_block(Parser& parser, Span open);
 
 ast::Expr parse_expression(Parser& parser, const char* what = "an expression");
+ast::ExtentDeclaration parse_extent(Parser& parser);  // after `extent`
+ast::Expr parse_size(Parser& parser);
+// Two or three numbers stand here, but not as they have to where sizes, groups or extents stand: `64 x 64`, `8x8x1`, `runtime 1920 1080`.
+enum class AxesForm : uint8_t { size, group, arguments };
+bool complain_about_axes(Parser& parser, AxesForm form);
 ast::Expr parse_place(Parser& parser, const char* what);  // a name with `.member`, `[index]` and `.member(call)` behind it
 std::vector<ast::Expr> parse_arguments(Parser& parser);   // `(a, b, c)`
 std::vector<ast::Expr> parse_indices(Parser& parser);     // `[i]`, `[i][j]`, or nothing

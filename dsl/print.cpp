@@ -225,7 +225,7 @@ void print_transfer(Printer& at, const Transfer& transfer) {
 
 std::string heading(const Program& program, const Graph& graph, const Pass& pass) {
   std::string text = fmt::format("{} queue {}{}", word(kPassKinds, pass.kind), word(kQueues, pass.queue), pass.queue_may ? " may" : "");
-  for (const ParamsUse& use : pass.params) text += " params " + graph.params[use.id].name;
+  for (const ParamsUse& use : pass.params) text += " params " + (use.name == graph.params[use.id].name ? "" : use.name + " = ") + graph.params[use.id].name;
   if (pass.state.valid()) text += " state " + program.states[pass.state].name;
   if (!pass.bind.empty()) text += " bind " + pass.bind;
   for (const PassId other : pass.after) text += " after " + graph.passes[other].name;

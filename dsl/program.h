@@ -291,6 +291,7 @@ struct Block {
 };
 
 struct ParamsUse {
+  std::string name;  // what the shader calls it: the technique's word for it, where a technique takes it
   ParamsId id;
   Span span;  // of the pass's own line
   friend bool operator==(const ParamsUse&, const ParamsUse&) = default;

@@ -15,7 +15,8 @@ void collect(const dsl::Diagnostic& diagnostic, dsl::FileId file, std::vector<ds
 
 Fixed apply_fixes(const dsl::Diagnostics& diagnostics, const dsl::SourceFiles& files, dsl::FileId file) {
   std::vector<dsl::FixIt> fixes;
-  for (const dsl::Diagnostic& diagnostic : diagnostics.rows()) collect(diagnostic, file, fixes);
+  for (const dsl::Diagnostic& diagnostic : diagnostics.rows())
+    if (!diagnostic.allowed()) collect(diagnostic, file, fixes);
   std::stable_sort(fixes.begin(), fixes.end(), [](const dsl::FixIt& a, const dsl::FixIt& b) { return a.span.begin < b.span.begin; });
   const std::string& text = files[file].text;
   Fixed fixed;

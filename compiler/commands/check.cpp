@@ -13,7 +13,8 @@ namespace {
 void append(dsl::Diagnostics& all, dsl::SourceFiles& sources, const dsl::Diagnostics& diagnostics, const dsl::SourceFiles& more) {
   const auto offset = static_cast<uint32_t>(sources.size());
   const auto move = [&](auto&& self, dsl::Diagnostic& diagnostic) -> void {
-    if (diagnostic.span.file.valid()) diagnostic.span.file.value += offset;
+    for (dsl::Span* span : {&diagnostic.span, &diagnostic.allowed_at})
+      if (span->file.valid()) span->file.value += offset;
     for (dsl::FixIt& fix : diagnostic.fixes)
       if (fix.span.file.valid()) fix.span.file.value += offset;
     for (dsl::Diagnostic& note : diagnostic.notes) self(self, note);
@@ -39,7 +40,7 @@ Checked check_file(const std::string& path, const compiler::CompileOptions& comp
 
 size_t count_errors(const dsl::Diagnostics& diagnostics) {
   return static_cast<size_t>(std::count_if(diagnostics.rows().begin(), diagnostics.rows().end(),
-                                           [](const dsl::Diagnostic& each) { return dsl::row(each.kind).severity == dsl::Severity::error; }));
+                                           [](const dsl::Diagnostic& each) { return each.severity() == dsl::Severity::error; }));
 }
 
 // Writes every file that has fixes; false if there was nothing to fix, or a file could not be written.
@@ -79,6 +80,7 @@ int check(const CheckOptions& options) {
   compile.progress = show_progress;
   dsl::Diagnostics all;
   dsl::SourceFiles sources;
+  all.judge_by(compile.warnings);
   read_profile(compile, all);
   for (const std::string& path : options.files) {
     if (options.fix) fix_file(path, compile, all);

@@ -119,8 +119,30 @@ void add_queues(CLI::App& command, std::vector<dsl::QueueKind>& queues) {
           {{"graphics", dsl::QueueKind::graphics}, {"compute", dsl::QueueKind::compute}, {"transfer", dsl::QueueKind::transfer}}));
 }
 
+// Says what is wrong, if anything.
+std::string read_warning(const std::string& code, std::vector<dsl::DiagnosticKind>& kinds) {
+  const auto kind = dsl::kind_of_code(code);
+  if (!kind) return "`" + code + "` is no code; `rgc explain --list` lists them";
+  if (dsl::row(*kind).severity != dsl::Severity::warning) return "`" + code + "` is no warning";
+  kinds.push_back(*kind);
+  return "";
+}
+
+void add_warning_options(CLI::App& command, dsl::WarningPolicy& policy) {
+  const auto add = [&](const char* name, std::vector<dsl::DiagnosticKind>& kinds, const char* help) {
+    const auto read = [&kinds, name](const std::vector<std::string>& codes) {
+      for (const std::string& code : codes)
+        if (const std::string why = read_warning(code, kinds); !why.empty()) throw CLI::ValidationError(name, why);
+    };
+    command.add_option_function<std::vector<std::string>>(name, read, help)->type_name("CODE")->allow_extra_args(false);
+  };
+  add("--allow", policy.allowed, "say nothing of a warning, such as RG0516; `allow RG0516` in the file says so of one place");
+  add("--deny", policy.denied, "take a warning for an error, but where the file allows it");
+}
+
 // Options that change the plan.
 void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
+  add_warning_options(command, options.warnings);
   command.add_option("-D", options.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
   add_switches(command, options.plan);
   command.add_flag_callback(
@@ -265,6 +287,7 @@ void add_spectrum(CLI::App& app, Run& run) {
   command->add_option("--html", options.html, "also write a page with plots")->type_name("FILE");
   command->add_option("-D", options.compile.fixed_features, "fix a feature at build time")->type_name("NAME=VALUE")->allow_extra_args(false);
   add_shader_options(*command.command, options.compile);
+  add_warning_options(*command.command, options.compile.warnings);
 }
 
 void add_graph(CLI::App& app, Run& run) {

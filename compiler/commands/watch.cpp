@@ -12,6 +12,7 @@
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "compiler/shaders/glslang_front_end.h"
 
 namespace rg::commands {
 namespace {
@@ -113,6 +114,7 @@ Build build_once(const WatchOptions& options, const std::vector<compiler::Spectr
   dsl::Diagnostics diagnostics;
   read_profile(compile, diagnostics);
   compiler::CompileResult result = compiler::compile(options.file, reader.reader(), compile, diagnostics);
+  if (compile.preview && diagnostics.has_errors()) return build_once(options, nullptr);  // haste makes no judgement: what the optimiser drops is still there
   if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {options.file});
   const std::string path = plan_file_of(options);
   if (!diagnostics.has_errors()) write_results(options, plan_file(path, result), result, diagnostics);
@@ -144,6 +146,7 @@ int watch(const WatchOptions& options) {
   for (;;) {
     Build build = build_once(options, built ? &kernels : nullptr);
     if (!build.complete && rests(build.marks)) build = build_once(options, nullptr);
+    if (!built) compiler::warm_front_end();
     if (build.complete && build.good) kernels = std::move(build.kernels), built = true;
     wait_for_change(build.marks);
   }

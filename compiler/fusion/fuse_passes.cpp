@@ -51,13 +51,13 @@ class Blocks {
   }
 
   // What the language of blocks does not have, and what the pass declares in vain.
-  void check(const dsl::Graph& graph, const dsl::Pass& pass) {
+  void check(const dsl::Pass& pass) {
     const FlatSource& flat = source(pass);
     if (!flat.missing.empty()) return void(diagnostics_.report(DiagnosticKind::ShaderNotReadable, pass.shaders[0].span, {flat.missing, flat.why}));
     const std::vector<GlslWord> words = glsl_words(flat.text);
     if (checked_.insert(pass.shaders[0].path).second && !check_words(pass, words)) return;
     check_functions(pass, global_names(words));
-    check_used(graph, pass, words);
+    check_used(pass, words);
   }
 
   std::vector<std::string> read_files() const { return sources_.readable_paths(); }
@@ -81,7 +81,7 @@ class Blocks {
     return true;
   }
 
-  void check_used(const dsl::Graph& graph, const dsl::Pass& pass, const std::vector<GlslWord>& words) {
+  void check_used(const dsl::Pass& pass, const std::vector<GlslWord>& words) {
     const std::set<std::string_view> used = [&] {
       std::set<std::string_view> all;
       for (const GlslWord& word : words) all.insert(word.text);
@@ -95,7 +95,7 @@ class Blocks {
     for (const dsl::Access& access : pass.accesses)
       if (access.element || access.role == dsl::Role::sampled || access.role == dsl::Role::storage || access.role == dsl::Role::uniform)
         need(access.name, access.span);
-    for (const dsl::ParamsUse& use : pass.params) need(graph.params[use.id].name, use.span);
+    for (const dsl::ParamsUse& use : pass.params) need(use.name, use.span);
   }
 
   void check_functions(const dsl::Pass& pass, const std::set<std::string>& names) {
@@ -124,7 +124,7 @@ class Fuser {
 
   dsl::Graph run() {
     for (const dsl::Pass& pass : graph_.passes)
-      if (pass.block) blocks_.check(graph_, pass);
+      if (pass.block) blocks_.check(pass);
     if (diagnostics_.has_errors()) return graph_;
     for (size_t f = 0; f < graph_.fusions.size() && options_.fuse; ++f) split(dsl::FusionId{f});
     if (diagnostics_.has_errors()) return graph_;

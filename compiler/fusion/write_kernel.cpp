@@ -116,7 +116,7 @@ void add_once(std::vector<T>& all, const std::vector<T>& more, Same same) {
 void collect_blocks(Parts& at) {
   for (size_t m = 0; m < at.members.size(); ++m) {
     const dsl::Pass& member = *at.members[m];
-    add_once(at.pass.params, member.params, [](const dsl::ParamsUse& a, const dsl::ParamsUse& b) { return a.id == b.id; });
+    add_once(at.pass.params, member.params, [](const dsl::ParamsUse& a, const dsl::ParamsUse& b) { return a.id == b.id && a.name == b.name; });
     add_once(at.pass.features, member.features, [](const dsl::ShaderFeature& a, const dsl::ShaderFeature& b) { return a.name == b.name; });
     add_once(at.pass.conditions, member.conditions, [](dsl::ConditionId a, dsl::ConditionId b) { return a == b; });
     add_once(at.pass.after, member.after, [](dsl::PassId a, dsl::PassId b) { return a == b; });
@@ -125,7 +125,7 @@ void collect_blocks(Parts& at) {
   }
   for (const KernelMember& member : at.order.members)
     at.pass.after.erase(std::remove(at.pass.after.begin(), at.pass.after.end(), member.pass), at.pass.after.end());
-  for (const dsl::ParamsUse& use : at.pass.params) at.taken.insert(at.graph.params[use.id].name);
+  for (const dsl::ParamsUse& use : at.pass.params) at.taken.insert(use.name);
   for (const dsl::ShaderFeature& feature : at.pass.features) at.taken.insert(feature.name);
 }
 

@@ -22,9 +22,9 @@ const ReflectedBinding* find_binding(const Reflection& reflection, const Interfa
   return nullptr;
 }
 
-Use use_in(const StageOutput& stage, const InterfaceBinding& binding) {
+ModuleUse use_in(const StageOutput& stage, const InterfaceBinding& binding) {
   const auto found = stage.uses.descriptors.find({1, binding.binding});
-  return found == stage.uses.descriptors.end() ? Use{} : found->second;
+  return found == stage.uses.descriptors.end() ? ModuleUse{} : found->second;
 }
 
 bool used_as_written(const StageOutput& stage, const InterfaceBinding& binding) {
@@ -46,7 +46,7 @@ void report_contradiction(const Checker& c, const StageOutput& stage, const dsl:
 }
 
 void check_mode(const Checker& c, const StageOutput& stage, const InterfaceBinding& binding, const dsl::Access& access) {
-  const Use use = use_in(stage, binding);
+  const ModuleUse use = use_in(stage, binding);
   if (access.role != dsl::Role::storage) return;
   if (access.mode == dsl::Mode::read && (use.writes || use.atomics))
     report_contradiction(c, stage, access, DiagnosticKind::WriteThroughRead, "written");

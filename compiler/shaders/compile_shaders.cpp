@@ -35,7 +35,7 @@ void merge(Reflection& all, const Reflection& more) {
   all.push_constants_used |= more.push_constants_used;
 }
 
-void merge(Use& all, const Use& more) {
+void merge(ModuleUse& all, const ModuleUse& more) {
   all.touched |= more.touched;
   all.reads |= more.reads;
   all.writes |= more.writes;

@@ -172,6 +172,11 @@ void configure(glslang::TShader& shader, dsl::Stage stage) {
 
 }  // namespace
 
+void warm_front_end() {
+  ShaderSources nothing([](const std::string&, std::string&) { return std::nullopt; });
+  (void)compile_glsl(dsl::stage_compute, "", "warm.comp", "#version 460\nvoid main() {}\n", nothing);
+}
+
 FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources) {
   Lengths becomes(prelude, include_closure(path, text, sources));
   if (const Expansions::Measure measure = becomes.of(path); measure.words > kMostWords) {

@@ -24,6 +24,9 @@ struct FrontEndOutput {
   std::vector<ShaderMessage> errors;
 };
 
+// Makes the tables that glslang makes once a process, so that the first shader need not wait for them.
+void warm_front_end();
+
 // Fails before glslang runs where macros or includes would make too much of the text, see expansion.h.
 // `path` is relative to the root folder; `#include` looks beside the including file, then in the root folder. Thread-safe.
 FrontEndOutput compile_glsl(dsl::Stage stage, const std::string& prelude, const std::string& path, const std::string& text, ShaderSources& sources);

@@ -274,8 +274,8 @@ std::vector<InterfaceBinding> pass_bindings(const dsl::Program&, const dsl::Grap
     if (binding_kind(graph, access, binding.kind)) bindings.push_back(std::move(binding));
   }
   for (uint32_t i = 0; i < pass.params.size(); ++i) {
-    const dsl::Params& params = graph.params[pass.params[i].id];
-    bindings.push_back({BindingKind::params, static_cast<uint32_t>(bindings.size()), dsl::kAll, i, params.name, pass.params[i].span});
+    const dsl::ParamsUse& use = pass.params[i];
+    bindings.push_back({BindingKind::params, static_cast<uint32_t>(bindings.size()), dsl::kAll, i, use.name, use.span});
   }
   return bindings;
 }

@@ -114,7 +114,7 @@ dsl::StructId struct_before(const PassContext& context, const std::string& line,
   for (const dsl::Access& access : context.pass.accesses)
     if (named(access.name)) return context.graph.resources[access.resource].element.record;
   for (const dsl::ParamsUse& use : context.pass.params)
-    if (named(last_part(context.graph.params[use.id].name))) return context.graph.params[use.id].type;
+    if (named(use.name)) return context.graph.params[use.id].type;
   return named("per_draw") ? context.pass.draw.per_draw : dsl::StructId{};
 }
 
@@ -163,6 +163,35 @@ void note_types(const PassContext& context, const ShaderMessage& message, Shader
       error.note(DiagnosticKind::AccessDeclaredHere, access.span, {access.name});
 }
 
+// What is sampled without a sampler has texels, and `texture` wants more.
+void note_samplers(const PassContext& context, const ShaderMessage& message, ShaderPlaces& places, dsl::Diagnostic& error) {
+  const std::string function = quoted_word(message.text);
+  if (!contains(message.text, "no matching overloaded function") || !function.starts_with("texture")) return;
+  const dsl::Span line = places.line(message.file, message.line);
+  for (const dsl::Access& access : context.pass.accesses)
+    if (access.role == dsl::Role::sampled && !access.sampler.valid() && places.word_in_line(message.file, message.line, access.name) != line)
+      error.note(DiagnosticKind::NeedsSampler, access.span, {access.name, function});
+}
+
+// Names that the pass and its vertices give to the stage, where one was meant that it does not have.
+void note_names(const PassContext& context, const dsl::Shader& shader, const ShaderMessage& message, dsl::Diagnostic& error) {
+  if (!contains(message.text, "undeclared identifier")) return;
+  std::string names;
+  const auto add = [&](const std::string& name) { names += (names.empty() ? "`" : ", `") + name + "`"; };
+  if (shader.stage == dsl::stage_vertex)
+    for (const dsl::VertexInput& input : context.pass.draw.vertex)
+      for (const dsl::Field& field : context.program.structs[input.type].fields) add(field.name);
+  for (const InterfaceBinding& binding : pass_bindings(context.program, context.graph, context.pass))
+    if (!binding.name.starts_with("rg_")) add(binding.name);
+  for (const dsl::ShaderFeature& feature : context.pass.features)
+    if (feature.values.empty())
+      add(feature.name);
+    else
+      for (const std::string& value : feature.values) add(feature.name + "_" + value);
+  if (context.pass.draw.per_draw.valid()) add("per_draw");
+  if (!names.empty()) error.note(DiagnosticKind::ShaderSees, context.pass.span, {names});
+}
+
 // A name the declaration chose and GLSL refuses, `input` for one.
 void report_in_prelude(const PassContext& context, const dsl::Shader& shader, const Prelude& prelude, const ShaderMessage& message,
                        dsl::Diagnostics& diagnostics) {
@@ -189,8 +218,9 @@ void report_message(const PassContext& context, const dsl::Shader& shader, const
   const std::string word = quoted_word(message.text);
   const dsl::Span span = message.file.empty() ? shader.span : places.word_in_line(message.file, message.line, word);
   dsl::Diagnostic error(DiagnosticKind::ShaderDoesNotCompile, span, {plain_text(shader, message)});
-  if (!message.file.empty()) note_types(context, message, places, error);
+  if (!message.file.empty()) note_types(context, message, places, error), note_samplers(context, message, places, error);
   if (!message.file.empty() && shader.stage == dsl::stage_fragment) note_outputs(context, message, places, error);
+  if (!message.file.empty() && error.notes.empty()) note_names(context, shader, message, error);
   error.note(DiagnosticKind::ShaderOfPass, shader.span, {context.pass.name});
   diagnostics.report(std::move(error));
 }

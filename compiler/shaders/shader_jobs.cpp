@@ -53,7 +53,15 @@ void keep(const ShaderCache* cache, std::string_view what, const Words& of, cons
   if (cache != nullptr) cache->store(key_of(what, of), {result});
 }
 
-FrontEndResult run_front_end(const FrontEndJob& job, ShaderSources& sources, const ShaderCache* cache) {
+// Enough to see what is used; what it leaves to do, drivers do for engines that optimise nothing.
+FrontEndResult in_a_hurry(const Words& written) {
+  FrontEndResult result = from_modules(written, inline_spirv(written), nullptr);
+  result.hurried = true;
+  return result;
+}
+
+FrontEndResult run_front_end(const FrontEndJob& job, ShaderSources& sources, const ShaderOptions& options) {
+  const ShaderCache* cache = options.cache;
   const Digest key = cache != nullptr ? key_of(job) : Digest{};
   if (cache != nullptr)
     if (auto found = cache->find(key); found && found->size() == 2) return from_modules((*found)[0], std::move((*found)[1]), cache);
@@ -68,6 +76,7 @@ FrontEndResult run_front_end(const FrontEndJob& job, ShaderSources& sources, con
       failed.errors.push_back({job.path, 1, "SPIR-V is not valid: " + problem});
       return failed;
     }
+    if (options.effort == ShaderEffort::preview && job.kernels) return in_a_hurry(written.words);
     generic = optimise_spirv(written.words);
     keep(cache, "optimise", written.words, *generic);
   }
@@ -88,6 +97,10 @@ struct Variant {
 // In the cache: the words, and whether they have been validated.
 Variant prune(const SpecialiseJob& job, const FrontEndResult& front_end, const ShaderCache* cache) {
   Variant result;
+  if (front_end.hurried) {
+    result.words = without_names(set_constants(front_end.generic, job.values));
+    return result;
+  }
   if (cache != nullptr) {
     result.key = key_of(front_end, job.values);
     if (auto found = cache->find(result.key); found && found->size() == 2 && (*found)[1].size() == 1) {
@@ -149,7 +162,7 @@ void validate_all(std::vector<Variant>& variants, const ShaderOptions& options) 
 std::vector<FrontEndResult> run_front_ends(const std::vector<FrontEndJob>& jobs, ShaderSources& sources, const ShaderOptions& options) {
   std::vector<FrontEndResult> results(jobs.size());
   for_each_parallel(jobs.size(), options.workers, {"shader", jobs.size(), options.progress},
-                    [&](size_t i) { results[i] = run_front_end(jobs[i], sources, options.cache); });
+                    [&](size_t i) { results[i] = run_front_end(jobs[i], sources, options); });
   return results;
 }
 

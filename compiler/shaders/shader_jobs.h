@@ -16,6 +16,7 @@ struct FrontEndResult {
   Words generic;               // optimised, specialisation constants open, named
   std::set<uint32_t> numbers;  // of the specialisation constants it still looks at
   Digest key;                  // of `generic` and the tools; only with a cache
+  bool hurried = false;        // `generic` has its functions in place and is not optimised
 };
 std::vector<FrontEndResult> run_front_ends(const std::vector<FrontEndJob>& jobs, ShaderSources& sources, const ShaderOptions& options);
 
@@ -30,7 +31,7 @@ struct SpecialiseJob {
 };
 struct Specialised {
   std::vector<Words> words;  // by job
-  bool complete = true;      // false: some are only pruned, see ShaderEffort::preview
+  bool complete = true;      // false: some are not final, see ShaderEffort::preview
 };
 // Optimised, stripped and, unless they are only measured, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
 Specialised specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);

@@ -15,6 +15,10 @@ std::vector<dsl::Shader> shaders_in_stage_order(const dsl::Pass& pass) {
   return shaders;
 }
 
+bool has_kernels(const dsl::Pass& pass) {
+  return !pass.features.empty() && std::none_of(pass.features.begin(), pass.features.end(), [](const auto& each) { return each.feature.valid(); });
+}
+
 class Collector {
  public:
   Collector(const dsl::Program& program, const dsl::Graph& graph, const VariantSpace& space, ShaderSources& sources, dsl::Diagnostics& diagnostics)
@@ -67,7 +71,7 @@ class Collector {
         continue;
       }
       const Prelude prelude = own ? Prelude{} : make_prelude(program_, graph_, pass, use.shader.stage, use.keys.back());
-      use.jobs.push_back(add_job({use.shader.stage, use.path, rg::compiler::text(prelude), &text, closure}));
+      use.jobs.push_back(add_job({use.shader.stage, use.path, rg::compiler::text(prelude), &text, closure, has_kernels(pass)}));
     }
   }
 

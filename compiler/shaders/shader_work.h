@@ -15,6 +15,7 @@ struct FrontEndJob {
   std::string prelude;
   const std::string* text = nullptr;
   std::vector<SourceText> closure;  // the text and what it includes
+  bool kernels = false;             // of a spectrum: all there are run on one device, whatever their features
 };
 // One shader of one pass.
 struct ShaderUse {

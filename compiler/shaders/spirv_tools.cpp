@@ -2,6 +2,7 @@
 
 #include <glslang/Public/ShaderLang.h>
 
+#include <algorithm>
 #include <glslang/SPIRV/spirv.hpp>
 #include <map>
 #include <spirv-tools/libspirv.hpp>
@@ -80,6 +81,17 @@ Words optimise_spirv(const Words& words) {
   return run(optimizer, words);
 }
 
+Words inline_spirv(const Words& words) {
+  spvtools::Optimizer optimizer(kTarget);
+  optimizer.RegisterPass(spvtools::CreateWrapOpKillPass());
+  optimizer.RegisterPass(spvtools::CreateDeadBranchElimPass());
+  optimizer.RegisterPass(spvtools::CreateMergeReturnPass());
+  optimizer.RegisterPass(spvtools::CreateInlineExhaustivePass());
+  optimizer.RegisterPass(spvtools::CreateEliminateDeadFunctionsPass());
+  optimizer.RegisterPass(spvtools::CreateAggressiveDCEPass(false));
+  return run(optimizer, words);
+}
+
 std::set<uint32_t> specialisation_ids(const Words& words) {
   std::set<uint32_t> ids;
   for_each_instruction(words, [&](spv::Op op, const uint32_t* w, uint32_t count) {
@@ -144,6 +156,17 @@ Words strip_spirv(const Words& words) {
   optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());
   optimizer.RegisterPass(spvtools::CreateCompactIdsPass());
   return run(optimizer, words);
+}
+
+Words without_names(const Words& words) {
+  constexpr spv::Op kNames[] = {spv::OpSource, spv::OpSourceContinued, spv::OpSourceExtension, spv::OpString, spv::OpName, spv::OpMemberName,
+                                spv::OpLine,   spv::OpNoLine,          spv::OpModuleProcessed};
+  Words out(words.begin(), words.begin() + kHeaderWords);
+  out.reserve(words.size());
+  for_each_instruction(words, [&](spv::Op op, const uint32_t* w, uint32_t count) {
+    if (std::find(std::begin(kNames), std::end(kNames), op) == std::end(kNames)) out.insert(out.end(), w, w + count);
+  });
+  return out;
 }
 
 }  // namespace rg::compiler

@@ -13,7 +13,7 @@ struct Variable {
   spv::StorageClass storage = spv::StorageClassFunction;
   uint32_t set = kUnset, binding = kUnset, location = kUnset;
   bool is_variable = false;
-  Use use;
+  ModuleUse use;
 };
 
 struct Module {
@@ -59,15 +59,15 @@ bool is_read_modify_write(spv::Op op) {
 
 bool reads_image(spv::Op op) { return (op >= spv::OpImageSampleImplicitLod && op <= spv::OpImageRead) || op == spv::OpImageSparseRead; }
 
-Use* use_of(Module& module, uint32_t id) {
+ModuleUse* use_of(Module& module, uint32_t id) {
   if (id >= module.roots.size() || module.roots[id] == 0) return nullptr;
-  Use& use = module.variables[module.roots[id]].use;
+  ModuleUse& use = module.variables[module.roots[id]].use;
   use.touched = true;
   return &use;
 }
 
 void load(Module& module, const uint32_t* words) {
-  Use* use = use_of(module, words[3]);
+  ModuleUse* use = use_of(module, words[3]);
   if (use == nullptr) return;
   if (module.handle_types.contains(words[1]))
     module.roots[words[2]] = module.roots[words[3]];
@@ -77,11 +77,11 @@ void load(Module& module, const uint32_t* words) {
 
 void call(Module& module, const uint32_t* words, uint32_t count) {
   for (uint32_t i = 4; i < count; ++i)
-    if (Use* use = use_of(module, words[i])) *use = {true, true, true, true};
+    if (ModuleUse* use = use_of(module, words[i])) *use = {true, true, true, true};
 }
 
-void set_flag(Module& module, uint32_t id, bool Use::*flag) {
-  if (Use* use = use_of(module, id)) use->*flag = true;
+void set_flag(Module& module, uint32_t id, bool ModuleUse::*flag) {
+  if (ModuleUse* use = use_of(module, id)) use->*flag = true;
 }
 
 void step(Module& module, spv::Op op, const uint32_t* words, uint32_t count) {
@@ -99,14 +99,14 @@ void step(Module& module, spv::Op op, const uint32_t* words, uint32_t count) {
       return load(module, words);
     case spv::OpStore:
     case spv::OpAtomicStore:
-      return set_flag(module, words[1], &Use::writes);
+      return set_flag(module, words[1], &ModuleUse::writes);
     case spv::OpCopyMemory:
-      set_flag(module, words[1], &Use::writes);
-      return set_flag(module, words[2], &Use::reads);
+      set_flag(module, words[1], &ModuleUse::writes);
+      return set_flag(module, words[2], &ModuleUse::reads);
     case spv::OpImageWrite:
-      return set_flag(module, words[1], &Use::writes);
+      return set_flag(module, words[1], &ModuleUse::writes);
     case spv::OpAtomicLoad:
-      return set_flag(module, words[3], &Use::reads);
+      return set_flag(module, words[3], &ModuleUse::reads);
     case spv::OpFunctionCall:
       return call(module, words, count);
     case spv::OpArrayLength:
@@ -122,9 +122,9 @@ void step(Module& module, spv::Op op, const uint32_t* words, uint32_t count) {
   if (derives_pointer(op)) {
     if (use_of(module, words[3]) != nullptr) module.roots[words[2]] = module.roots[words[3]];
   } else if (is_read_modify_write(op)) {
-    set_flag(module, words[3], &Use::atomics);
+    set_flag(module, words[3], &ModuleUse::atomics);
   } else if (reads_image(op)) {
-    set_flag(module, words[3], &Use::reads);
+    set_flag(module, words[3], &ModuleUse::reads);
   }
 }
 

@@ -9,13 +9,13 @@
 
 namespace rg::compiler {
 
-struct Use {
+struct ModuleUse {
   bool touched = false;  // named by any instruction, size queries included
   bool reads = false, writes = false, atomics = false;
 };
 struct ModuleUses {
-  std::map<std::pair<uint32_t, uint32_t>, Use> descriptors;  // by set and binding; all declared ones
-  std::map<uint32_t, Use> outputs;                           // by location
+  std::map<std::pair<uint32_t, uint32_t>, ModuleUse> descriptors;  // by set and binding; all declared ones
+  std::map<uint32_t, ModuleUse> outputs;                           // by location
   bool push_constants = false;
 };
 

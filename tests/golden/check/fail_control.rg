@@ -6,7 +6,7 @@ feature path: { low, high, low }  //~ error[RG0201]: `low` is declared twice
 technique loop(image a) { use loop(a) }  //~ error[RG0234]: technique `loop` is used more than 16 levels deep
 //~^ note[RG0452]: `loop` is used here
 technique one(image a, buffer b) { }  //~ note[RG0202]: `one` is declared here
-technique wants(surface s: rgba8 4x4) { }  //~ error[RG0236]: parameter `s` is of a kind that only graphs take
+technique wants(surface s: rgba8 4x4) { }  //~ error[RG0236]: parameter `s` is of a kind that only graphs take; a technique takes `image`, `buffer`, `params` and `const`
 graph g(image a, surface s: rgba8 4x4) {  //~ error[RG0235]: parameter `a` is of a kind that only techniques take
   image x : rgba8 4x4
   buffer y : u32[4]

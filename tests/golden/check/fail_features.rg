@@ -6,6 +6,9 @@ feature soft: bool requires shadows and dark  //~ error[RG0247]: feature `soft` 
 //~^ note[RG0202]: `soft` is declared here
 feature path: { low, mid requires quality, high excludes quality == tiny }  //~ error[RG0231]: feature `quality` has several values: compare it with one of them
 feature quality: { tiny, large }  //~ note[RG0202]: `quality` is declared here
+feature rain: bool requires sonar  //~ error[RG0247]: feature `rain` can never be `on`: its rules contradict themselves
+//~^ note[RG0202]: `rain` is declared here
+feature sonar: bool excludes rain  //~ note[RG0452]: `rain` is used here
 feature fine: bool requires dark and quality != large
 
 graph frame(surface backbuffer: rgba8 view after copy_src)

@@ -20,6 +20,8 @@ graph g(surface s: rgba8 4x4) {
   }
   pass conflict : compute { read a as sampled  write other = a as storage }  //~ error[RG0356]: pass `conflict` uses `a` as `sampled` and as `storage`, and one of them writes
 //~^ note[RG0357]: the other access is here
+  pass counts : compute { atomic one = e as storage  read two = e as storage }  //~ error[RG0356]: pass `counts` uses `e` as `atomic storage` and as `read storage`, and one of them writes
+//~^ note[RG0357]: the other access is here
   pass twice : compute { write one = e.bytes(0, 32) as storage  write two = e.bytes(16, 32) as storage }  //~ error[RG0356]: pass `twice` uses `e` as `storage` and as `storage`, and one of them writes
 //~^ note[RG0357]: the other access is here
   pass apart : compute { write one = e.bytes(0, 32) as storage  write two = e.bytes(32, 32) as storage }

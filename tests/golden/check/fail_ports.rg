@@ -45,3 +45,12 @@ graph other(surface backbuffer: rgba8 view after copy_src)
   use blank(sharp)  //~ note[RG0452]: `blank` is used here
   pass show : raster { color backbuffer clear 0 }
 }
+
+technique paint(out image target) {
+  pass first : raster { color gone clear 0 }  //~ error[RG0203]: there is no resource called `gone`
+  pass second : raster { color target }
+}
+graph painted(surface backbuffer: rgba8 view after copy_src)
+{
+  use paint(backbuffer)  //~ note[RG0452]: `paint` is used here
+}

@@ -14,4 +14,11 @@ graph g(surface s: rgba8 4x4) {
   pass p7 : transfer { resolve m -> n }  //~ error[RG0363]: a resolve keeps the format: `m` is `rgba8`, `n` is `r32f`
   pass p8 : raster { color s clear 0  resolve m -> s }  //~ error[RG0364]: `m` is no colour attachment of pass `p8`
   pass p9 : raster { host { read a as copy_src } }  //~ error[RG0360]: `host` belongs in a transfer pass
+  image u : r32ui 4x4
+  image i : r32i 4x4
+  image z : d32f 4x4
+  pass p10 : transfer { blit a -> u }  //~ error[RG0482]: a blit keeps whole numbers whole, with or without a sign, and depth as it is: `a` is `rgba8`, `u` is `r32ui`
+  pass p11 : transfer { blit u -> i }  //~ error[RG0482]: a blit keeps whole numbers whole, with or without a sign, and depth as it is: `u` is `r32ui`, `i` is `r32i`
+  pass p12 : transfer { blit z -> n }  //~ error[RG0482]: a blit keeps whole numbers whole, with or without a sign, and depth as it is: `z` is `d32f`, `n` is `r32f`
+  pass p13 : transfer { blit a -> n }
 }

@@ -28,4 +28,5 @@ graph g(surface s: rgba8 4x4) {
   for i in 4..1 { }  //~ error[RG0232]: the range runs from 4 down to 1
   for i in 0..100000 { }  //~ error[RG0233]: the graph unrolls to more than 65536 loop bodies
   assert memory <= good.x  //~ error[RG0216]: expected a number, or a list of numbers, known now
+  image wide : rgba8 goodxgood  //~ error[RG0203]: there is no constant, extent or resource called `goodxgood`
 }

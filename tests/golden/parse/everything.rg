@@ -11,13 +11,14 @@ state opaque { cull back  front clockwise  depth test less  depth write off  bia
 feature fog: bool
 feature path: { low, high }
 condition missed
+allow RG0516
 set materials 0 { uniform sampler2D albedo[16]; }
 technique blur(image source, inout image target, const radius, params p: View, buffer weights) {
   pass go : compute { read source as sampled  write target as storage }
 }
 graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8 view after copy_src)
 {
-  image a : rgba8 view / 2 mips 3 layers 2 samples 1 history 1 init clear 0 no alias output
+  image a : rgba8 view / 2 mips 3 layers 2 samples 1 history 1 init clear 0 no alias output allow RG0388
   image b[0] : r32f [4, 5, 6] 3d persistent
   buffer c : u32[ceil(view / 8).area] readback
   pass p : raster queue graphics may {
@@ -34,6 +35,7 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
     after q
     keep
     multiview
+    allow RG0408
     draw indexed indirect c max 10 count c { per_draw Draw { id: u32 }  vertex Vertex }
   }
   pass q[1] : compute { shader "a.comp" group 8 8 1  atomic c as storage clear 0 disjoint  dispatch over view }
@@ -51,4 +53,5 @@ graph frame(params view_constants: View, scene: Scene, surface backbuffer: rgba8
   fuse j { pass j1 : compute { block "j.glsl" group TILE } }
   assert memory(1920x1080) <= 170 MiB
   warn order(p, q[1])
+  allow RG0502
 }

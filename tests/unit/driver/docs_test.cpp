@@ -60,7 +60,7 @@ void expect_right(const Files& files, const std::string& page) {
   options.until = Until::plans;
   dsl::Diagnostics diagnostics;
   const CompileResult result = compile("example.rg", read, options, diagnostics);
-  EXPECT_TRUE(diagnostics.rows().empty()) << page << "\n" << dsl::print(diagnostics, result.sources, false);
+  EXPECT_EQ(dsl::print(diagnostics, result.sources, false), "") << page << "\n" << dsl::print(diagnostics, result.sources, false);
   expect_proved(result);
 }
 

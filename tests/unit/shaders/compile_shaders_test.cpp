@@ -45,6 +45,7 @@ TEST_F(CompileShaders, ErrorInAnIncludeIsAtItsLine) {
   const ShaderBundle bundle = compile();
   EXPECT_EQ(report(),
             "RG0402 lib/b.glsl:2:20 `nothing`: undeclared identifier\n"
+            "  RG0455 passes.rg:3:8 the pass gives it `depth`, `hdr`\n"
             "  RG0450 passes.rg:4:5 shader of pass `work`, named here\n");
   EXPECT_EQ(bundle.read_files, (std::vector<std::string>{"lib/a.glsl", "lib/b.glsl", "work.comp"}));
 }

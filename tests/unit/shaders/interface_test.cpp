@@ -38,7 +38,7 @@ TEST_F(Interface, BindingsFollowAccessesThenParams) {
       compute({access(depth, Mode::read, Role::sampled), access(hdr, Mode::write, Role::storage), access(mask, Mode::atomic, Role::storage),
                access(mask, Mode::read, Role::indirect), access(mask, Mode::read, Role::storage)},
               "");
-  pass.params = {{graph().params.add({"view", type, {}, {}}), {}}};
+  pass.params = {{"view", graph().params.add({"view", type, {}, {}}), {}}};
   EXPECT_EQ(prelude(pass, dsl::stage_compute),
             "const int TILE = 8;\n"
             "struct View {\n  vec2 scale[4];\n};\n"

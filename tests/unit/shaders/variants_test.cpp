@@ -130,6 +130,7 @@ TEST_F(Variants, AFailureThatTakesFeaturesNamesTheFewest) {
   compile(all_combinations());
   EXPECT_EQ(report(),
             "RG0402 work.comp:4:7 `nothing`: undeclared identifier\n"
+            "  RG0455 passes.rg:3:8 the pass gives it `hdr`, `red`, `blue`, `green`\n"
             "  RG0450 passes.rg:4:5 shader of pass `work`, named here\n"
             "  RG0708 passes.rg:3:8 it fails with `red=on, green=on` and compiles with `red=off, blue=off, green=off`\n");
 }
@@ -185,6 +186,25 @@ TEST(Statistics, CountsAndLiveScalars) {
   EXPECT_EQ(s.shared_bytes, 4u);
   EXPECT_GE(s.live_scalars, 10u);  // both texels and the place
   EXPECT_LE(s.live_scalars, 16u);
+}
+
+// Kernels of a spectrum are only put together in a hurry, and are what the validator takes; a whole build leaves out what they do not need.
+TEST_F(Variants, KernelsAreValidInAHurry) {
+  pass_with({}, "float shade(bool on) { return on ? sin(float(gl_LocalInvocationIndex)) : 0.5; }\n"
+                "void main() { vec4 c = vec4(shade(red)); if (blue) c.b = cos(c.r); imageStore(hdr, ivec2(0), c); }\n")
+      .features = {{"red", {}, 0, {}, span("work")}, {"blue", {}, 0, {}, span("work")}};
+  ShaderOptions hurried;
+  hurried.effort = ShaderEffort::preview;
+  const ShaderBundle preview = compile(initial_variants(program, graph_id), hurried), whole = compile(initial_variants(program, graph_id));
+  ASSERT_TRUE(diagnostics.rows().empty()) << diagnostics.rows()[0].message();
+  EXPECT_FALSE(preview.complete);
+  EXPECT_TRUE(whole.complete);
+  ASSERT_EQ(preview.shaders.size(), 1u);
+  const Words& words = preview.shaders[0].words;
+  EXPECT_EQ(validate_spirv(words), "");
+  EXPECT_TRUE(specialisation_ids(words).empty());
+  EXPECT_EQ(without_names(words), words);
+  EXPECT_LT(find_statistics(whole.shaders[0].words).instructions, find_statistics(words).instructions);
 }
 
 }  // namespace

@@ -1,0 +1,1 @@
+void main() { backbuffer = texture(bark, gl_FragCoord.xy); }
