@@ -33,7 +33,9 @@ class Annealer {
         live_(count),
         energy_(count),
         stamp_(problem.items.size()),
-        random_{seed * 0x9E3779B97F4A7C15} {
+        random_{seed * 0x9E3779B97F4A7C15},
+        sweep_every_(std::max<uint64_t>(256, problem.nodes / 40)),
+        long_move_(uint64_t{2} * count > problem.nodes ? 1024 : SIZE_MAX) {
     list_users();
     for (const auto& item : problem.items) weights_.push_back(static_cast<double>(item.bytes));
     intervals_.resize(problem.items.size());
@@ -56,11 +58,14 @@ class Annealer {
     squeezes_ = true, heat_ = kHeat;
     target_ = best_peak_;
     set_scale(target_);
-    for (uint64_t i = 0; i < evaluations; ++i) {
-      step();
-      if (i + 1 == evaluations || (i & 255) == 255)
-        if (*std::max_element(live_.begin(), live_.end()) <= target_) best_ = segments_;
+    const auto keep = [&] {
+      if (*std::max_element(live_.begin(), live_.end()) <= target_) best_ = segments_;
+    };
+    for (uint64_t i = 1, spent = 0; spent < evaluations; ++i) {
+      spent += step();
+      if (i % sweep_every_ == 0) keep();
     }
+    keep();
     return best_;
   }
 
@@ -88,10 +93,10 @@ class Annealer {
   // All segments near the peak at once, smoothly.
   void cool(uint64_t evaluations) {
     constexpr double kHot = 0.5, kCold = 0.0005;
-    for (uint64_t i = 0; i < evaluations; ++i) {
-      const double progress = static_cast<double>(i) / static_cast<double>(evaluations);
-      if ((i & 1023) == 0) heat_ = kHot * std::pow(kCold / kHot, progress), rescale();
-      step();
+    for (uint64_t i = 0, spent = 0; spent < evaluations; ++i) {
+      const double progress = static_cast<double>(spent) / static_cast<double>(evaluations);
+      if (i % (4 * sweep_every_) == 0) heat_ = kHot * std::pow(kCold / kHot, progress), rescale();
+      spent += step();
     }
     rescale();
   }
@@ -101,13 +106,13 @@ class Annealer {
   void squeeze(uint64_t evaluations) {
     squeezes_ = true, heat_ = kHeat;
     lower_target();
-    for (uint64_t i = 0; i < evaluations; ++i) {
-      if ((i & 255) == 0) {
+    for (uint64_t i = 0, spent = 0; spent < evaluations; ++i) {
+      if (i % sweep_every_ == 0) {
         if (note_peak()) lower_target();
         move_boundary();
         find_hot_nodes(target_);
       }
-      step();
+      spent += step();
     }
     note_peak();
   }
@@ -124,11 +129,12 @@ class Annealer {
   }
 
   void count_live() {
-    std::fill(live_.begin(), live_.end(), 0.0);
+    std::vector<double> change(live_.size() + 1);  // whole bytes, whose sums are exact
     for (uint32_t i = 0; i < problem_.items.size(); ++i) {
       intervals_[i] = interval(i);
-      for (uint32_t s = intervals_[i].begin; s <= intervals_[i].end; ++s) live_[s] += weights_[i];
+      change[intervals_[i].begin] += weights_[i], change[intervals_[i].end + 1] -= weights_[i];
     }
+    std::partial_sum(change.begin(), change.end() - 1, live_.begin());
     count_energy();
   }
   void set_scale(double peak) {
@@ -198,14 +204,19 @@ class Annealer {
     return low > 0 ? low - 1 : low;                                                            // pushes its predecessors
   }
 
-  void step() {
+  // Gives what it counts for: one, and in a chain more where items of a thousand segments move, so that a move that takes long is one of few.
+  uint64_t step() {
     const uint32_t node = pick_node(), target = pick_target(node);
-    if (target == segments_[node]) return;
+    if (target == segments_[node]) return 1;
     moved_.clear();
-    if (!push(node, target)) return undo_segments();
+    if (!push(node, target)) return undo_segments(), 1;
     const double change = apply();
-    if (change > 0 && (change > kHopeless * heat_ || random_.unit() >= std::exp(-change / heat_))) return undo();
-    note_best();
+    const uint64_t counts = changes_ < long_move_ ? 1 : changes_ / (long_move_ / 2);
+    if (change > 0 && (change > kHopeless * heat_ || random_.unit() >= std::exp(-change / heat_)))
+      undo();
+    else
+      note_best();
+    return counts;
   }
 
   // Moves node to target, and neighbours that are in the way, in both directions. False: does not fit.
@@ -298,6 +309,8 @@ class Annealer {
   std::vector<SegmentInterval> intervals_;
   std::vector<uint64_t> stamp_;
   Random random_;
+  uint64_t sweep_every_;  // moves between looks at the whole problem, which then take no more than a share of the time
+  size_t long_move_;      // rows that a move changes and counts as one; where most nodes have a segment of their own, moves are few and go far
   std::vector<Moved> moved_;
   std::vector<Touched> touched_;
   std::vector<Changed> changed_;
