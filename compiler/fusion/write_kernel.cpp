@@ -113,10 +113,21 @@ void add_once(std::vector<T>& all, const std::vector<T>& more, Same same) {
     if (std::none_of(all.begin(), all.end(), [&](const T& other) { return same(other, each); })) all.push_back(each);
 }
 
+// Two techniques may call different parameters the same, or the same ones differently.
+void add_params(Parts& at, size_t member) {
+  for (dsl::ParamsUse use : at.members[member]->params) {
+    const std::string own = use.name;
+    const auto same = std::find_if(at.pass.params.begin(), at.pass.params.end(), [&](const dsl::ParamsUse& other) { return other.id == use.id; });
+    const bool known = same != at.pass.params.end();
+    use.name = known ? same->name : claim(at, own);
+    note_name(at, member, own, use.name);
+    if (!known) at.pass.params.push_back(std::move(use));
+  }
+}
+
 void collect_blocks(Parts& at) {
   for (size_t m = 0; m < at.members.size(); ++m) {
     const dsl::Pass& member = *at.members[m];
-    add_once(at.pass.params, member.params, [](const dsl::ParamsUse& a, const dsl::ParamsUse& b) { return a.id == b.id && a.name == b.name; });
     add_once(at.pass.features, member.features, [](const dsl::ShaderFeature& a, const dsl::ShaderFeature& b) { return a.name == b.name; });
     add_once(at.pass.conditions, member.conditions, [](dsl::ConditionId a, dsl::ConditionId b) { return a == b; });
     add_once(at.pass.after, member.after, [](dsl::PassId a, dsl::PassId b) { return a == b; });
@@ -125,8 +136,8 @@ void collect_blocks(Parts& at) {
   }
   for (const KernelMember& member : at.order.members)
     at.pass.after.erase(std::remove(at.pass.after.begin(), at.pass.after.end(), member.pass), at.pass.after.end());
-  for (const dsl::ParamsUse& use : at.pass.params) at.taken.insert(use.name);
   for (const dsl::ShaderFeature& feature : at.pass.features) at.taken.insert(feature.name);
+  for (size_t m = 0; m < at.members.size(); ++m) add_params(at, m);
 }
 
 // ---- GLSL of places and values
@@ -470,7 +481,7 @@ dsl::Pass write_kernel(dsl::Program& program, const dsl::Graph& graph, const Ker
   at.renamed.resize(at.members.size());
   at.pass = first(at);
   at.pass.name = order.name;
-  at.pass.accesses.clear();
+  at.pass.accesses.clear(), at.pass.params.clear();
   collect_blocks(at);
   collect_accesses(at);
   add_interface(at);

@@ -77,9 +77,11 @@ std::string Harmless::not_stored(Index attachment) const {
     const Pass& pass = plan_.passes[step.index];
     if (draws_to(pass, attachment)) found = true;
     if (!found || draws_to(pass, attachment)) continue;
-    for (const Access& access : accesses_of(step.index))
-      if (access.writes && access.ref == row.ref && meet(access.range, row.range))
-        return pass.guard != 0 || pass.mip_limit_count != 0 ? "contents kept over a pass that may be skipped" : "";
+    for (const Access& access : accesses_of(step.index)) {
+      if (!access.writes || access.ref != row.ref || !meet(access.range, row.range)) continue;
+      if (pass.guard != 0 || pass.mip_limit_count != 0) return "contents kept over a pass that may be skipped";
+      if (access.range == row.range || reads(access)) return "";  // else the next writer of the rest counts
+    }
   }
   return "";
 }

@@ -152,6 +152,46 @@ TEST(Blocks, KeepTheirNamesApart) {
             "");
 }
 
+// Each technique calls its parameters `with`, of which the kernel has two; a third block calls one of them by another name.
+TEST(Blocks, KeepParametersOfTheirTechniquesApart) {
+  const Files files = {{"main.rg", R"(module main
+extent view = runtime(64, 64) max(128, 128)
+struct Gain { by: f32 }
+technique raise(params with: Gain, image from: r32f, out image to: r32f) {
+  pass scale : compute { block "scale.glsl"  params with  read from as element  write to as element  dispatch over view }
+}
+graph g(params left: Gain, params right: Gain) {
+  image a : r32f view
+  image b : r32f view
+  image c : r32f view
+  image d : r32f view output
+  fuse all {
+    pass make : compute { block "make.glsl"  params left  write a as element  dispatch over view }
+    use first = raise(left, a, b)
+    use second = raise(right, b, c)
+    pass last : compute { block "last.glsl"  params right  read c as element  write d as element  dispatch over view }
+  }
+}
+)"},
+                       {"make.glsl", "void element(ivec2 at) { a = float(at.x) * left.by; }"},
+                       {"scale.glsl", "void element(ivec2 at) { to = from * with.by; }"},
+                       {"last.glsl", "void element(ivec2 at) { d = c + right.by; }"}};
+  const Compiled compiled = compile_files(files);
+  EXPECT_EQ(compiled.messages(), "");
+  ASSERT_EQ(compiled.result.fused.size(), 1u);
+  EXPECT_EQ(compiled.result.fused[0].members.size(), 4u);
+  const auto& graph = compiled.result.program.graphs.rows.front();
+  const auto kernel = std::find_if(graph.passes.rows.begin(), graph.passes.rows.end(), [](const dsl::Pass& pass) { return pass.params.size() == 2; });
+  ASSERT_NE(kernel, graph.passes.rows.end());
+  EXPECT_EQ(kernel->params[0].name, "left");
+  EXPECT_EQ(kernel->params[1].name, "with");
+  const std::string& text = kernel->shaders[0].text;
+  EXPECT_NE(text.find("rg_a * left.by"), std::string::npos) << text;
+  EXPECT_NE(text.find("* with.by"), std::string::npos) << text;
+  EXPECT_NE(text.find("+ with.by"), std::string::npos) << text;
+  prove(compiled.result);
+}
+
 TEST(Blocks, NeedTheirFunctions) {
   EXPECT_EQ(of_block("void main() { mid = vec4(0); }"), "RG0733 block `first.glsl` does not define `element`\n");
   EXPECT_EQ(of_block("void element(ivec2 at) { mid = vec4(0); }", "block \"first.glsl\" scan x f32 associative\n write mid as element\n dispatch over view"),
