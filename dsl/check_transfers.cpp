@@ -1,5 +1,7 @@
 // Transfer statements: each brings its accesses and a row of Pass::transfers.
 #include <algorithm>
+#include <array>
+#include <functional>
 
 #include "dsl/check_state.h"
 
@@ -40,6 +42,41 @@ bool blit_fits(Format from, Format to) {
   return kind(a) == kind(b);
 }
 
+int64_t side_of(const Checker& checker, ExprId axis, uint32_t mip, const std::vector<int64_t>& extents) {
+  return axis.valid() ? std::max<int64_t>(evaluate(checker.program, axis, extents) >> mip, 1) : 1;
+}
+
+// What copies count: blocks along each axis of the first mip, then mips, then layers.
+std::array<int64_t, 5> blocks_of(const Checker& checker, const Resource& image, const Range& range, const std::vector<int64_t>& extents) {
+  const FormatInfo& format = info(image.format);
+  const int64_t width = side_of(checker, image.width, range.mip, extents), height = side_of(checker, image.height, range.mip, extents);
+  return {(width + format.block_width - 1) / format.block_width, (height + format.block_height - 1) / format.block_height,
+          side_of(checker, image.depth, range.mip, extents), mip_count(image, range), layer_count(image, range)};
+}
+
+std::string size_text(const Checker& checker, const Resource& image, const Range& range, const std::vector<int64_t>& extents) {
+  std::string text = std::to_string(side_of(checker, image.width, range.mip, extents));
+  for (const ExprId axis : {image.height, image.depth})
+    if (axis.valid()) text += "x" + std::to_string(side_of(checker, axis, range.mip, extents));
+  if (const uint32_t mips = mip_count(image, range); mips > 1) text += ", " + std::to_string(mips) + " mips";
+  if (const uint32_t layers = layer_count(image, range); layers > 1) text += ", " + std::to_string(layers) + " layers";
+  return text;
+}
+
+// A transfer defines what it writes, so there has to be a texel of the source for each.
+bool source_covers(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& src, const Place& dst, Span span) {
+  const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
+  if (from.dimension != to.dimension) return true;
+  for (const auto& extents : {initial_extents(checker.program), maximum_extents(checker.program)}) {
+    const auto has = blocks_of(checker, from, src.range, extents), wants = blocks_of(checker, to, dst.range, extents);
+    if (std::equal(wants.begin(), wants.end(), has.begin(), std::less_equal<>())) continue;
+    checker.report(DiagnosticKind::CopyTooSmall, span, {from.name, size_text(checker, from, src.range, extents), to.name, size_text(checker, to, dst.range, extents),
+                                                        word.kind == TransferKind::copy ? "`blit` scales" : "a resolve keeps the size"});
+    return false;
+  }
+  return true;
+}
+
 bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& src, const Place& dst, Span span) {
   const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
   if (src.resource == dst.resource && src.age == dst.age && src.range == dst.range) {
@@ -54,13 +91,14 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
     checker.report(DiagnosticKind::ResolveFormats, span, {from.name, name(from.format), to.name, name(to.format)});
     return false;
   }
+  if (word.kind == TransferKind::resolve) return source_covers(checker, scope, word, src, dst, span);
   if (word.kind == TransferKind::blit && is_image(scope, src) && is_image(scope, dst) && !blit_fits(from.format, to.format)) {
     checker.report(DiagnosticKind::BlitFormats, span, {from.name, name(from.format), to.name, name(to.format)});
     return false;
   }
   const bool both_images = is_image(scope, src) && is_image(scope, dst);
   if (word.kind != TransferKind::copy || !both_images) return kinds_fit(checker, scope, word, src, span);
-  if (info(from.format).block_bytes == info(to.format).block_bytes && from.samples == to.samples) return true;
+  if (info(from.format).block_bytes == info(to.format).block_bytes && from.samples == to.samples) return source_covers(checker, scope, word, src, dst, span);
   checker.report(DiagnosticKind::CopyFormats, span, {from.name, name(from.format), to.name, name(to.format)});
   return false;
 }
@@ -84,6 +122,14 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
   const bool fits = out.pass.kind == PassKind::transfer || (out.pass.kind == PassKind::raster && word.kind == TransferKind::resolve);
   if (!fits) checker.report(DiagnosticKind::TransferOutsideTransfer, span, {std::string(word.word)});
   return fits;
+}
+
+// vkCmdResolveImage knows no other aspect (VUID-VkImageResolve-aspectMask-00266).
+bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst, Span span) {
+  const Resource& from = scope.graph.resources[src.resource];
+  if (word.kind != TransferKind::resolve || out.pass.kind != PassKind::transfer || info(from.format).is_color()) return true;
+  checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), scope.graph.resources[dst.resource].name});
+  return false;
 }
 
 void drop(GraphScope& scope, PassScope& out) { out.dropped = scope.incomplete = true; }
@@ -113,7 +159,7 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
   if (!dst.ok() || (node.src && !src.ok())) return drop(scope, out);
   if (!kinds_fit(checker, scope, *word, dst, node.span)) return drop(scope, out);
   if (node.src) {
-    if (!sources_fit(checker, scope, *word, src, dst, node.span)) return drop(scope, out);
+    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_colour(checker, scope, out, *word, src, dst, node.span)) return drop(scope, out);
     const auto from = add_source(checker, scope, out, *word, src);
     if (!from) return drop(scope, out);
     transfer.src = *from;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "runtime/errors.h"
+#include "runtime/formats.h"
 #include "runtime/resolve.h"
 
 namespace rg {
@@ -39,7 +40,14 @@ struct ImagePair {
   VkImageSubresourceRange src{}, dst{};
   uint32_t mips = 0;
   VkExtent3D src_extent{}, dst_extent{};  // of mip 0
+  FormatInfo src_format{}, dst_format{};
 };
+
+// Texels of one axis of the source that the destination has, too. A block of the one is a block of the other, whatever their shapes.
+uint32_t common_side(uint32_t src, uint32_t src_block, uint32_t dst, uint32_t dst_block) {
+  const uint32_t blocks = std::min((src + src_block - 1) / src_block, (dst + dst_block - 1) / dst_block);
+  return std::min(src, blocks * src_block);
+}
 
 ImagePair image_pair(const Context& context, const Sized& sized, const Transfer& transfer) {
   ImagePair pair;
@@ -49,12 +57,16 @@ ImagePair image_pair(const Context& context, const Sized& sized, const Transfer&
   pair.src.layerCount = pair.dst.layerCount = std::min(pair.src.layerCount, pair.dst.layerCount);
   pair.src_extent = sized.resources[transfer.src.resource].extent;
   pair.dst_extent = sized.resources[transfer.dst.resource].extent;
+  pair.src_format = format_info(static_cast<VkFormat>(context.plan.resources[transfer.src.resource].format));
+  pair.dst_format = format_info(static_cast<VkFormat>(context.plan.resources[transfer.dst.resource].format));
   return pair;
 }
 
 void add_copies(const ImagePair& pair, TransferTable& table) {
   for (uint32_t i = 0; i < pair.mips; ++i) {
-    const VkExtent3D extent = smaller(mip_extent(pair.src_extent, pair.src.baseMipLevel + i), mip_extent(pair.dst_extent, pair.dst.baseMipLevel + i));
+    const VkExtent3D src = mip_extent(pair.src_extent, pair.src.baseMipLevel + i), dst = mip_extent(pair.dst_extent, pair.dst.baseMipLevel + i);
+    const VkExtent3D extent{common_side(src.width, pair.src_format.block_width, dst.width, pair.dst_format.block_width),
+                            common_side(src.height, pair.src_format.block_height, dst.height, pair.dst_format.block_height), std::min(src.depth, dst.depth)};
     table.copies.push_back({layers_at(pair.src, i), {}, layers_at(pair.dst, i), {}, extent});
   }
 }

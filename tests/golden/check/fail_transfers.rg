@@ -21,4 +21,18 @@ graph g(surface s: rgba8 4x4) {
   pass p11 : transfer { blit u -> i }  //~ error[RG0482]: a blit keeps whole numbers whole, with or without a sign, and depth as it is: `u` is `r32ui`, `i` is `r32i`
   pass p12 : transfer { blit z -> n }  //~ error[RG0482]: a blit keeps whole numbers whole, with or without a sign, and depth as it is: `z` is `d32f`, `n` is `r32f`
   pass p13 : transfer { blit a -> n }
+  image large : rgba8 8x4
+  image stack : rgba8 4x4 layers 2
+  image words : rgba32ui 2x2
+  image blocks : bc7 8x8
+  image deep : d32f 4x4 samples 4
+  image cut : rgba8 8x4 samples 4
+  pass p14 : transfer { copy a -> large }  //~ error[RG0484]: a part of `large` would stay as it was: it is 8x4, and `a` is 4x4; `blit` scales
+  pass p15 : transfer { copy large -> a }
+  pass p16 : transfer { copy a -> stack }  //~ error[RG0484]: a part of `stack` would stay as it was: it is 4x4, 2 layers, and `a` is 4x4; `blit` scales
+  pass p17 : transfer { copy words -> blocks }
+  pass p18 : transfer { copy blocks -> words }
+  pass p19 : transfer { resolve deep -> z }  //~ error[RG0483]: a transfer pass resolves colour alone, and `deep` is `d32f`; say `resolve deep -> z` in the raster pass that draws `deep`
+  pass p20 : transfer { resolve m -> large }  //~ error[RG0484]: a part of `large` would stay as it was: it is 8x4, and `m` is 4x4; a resolve keeps the size
+  pass p21 : transfer { resolve cut -> s }
 }
