@@ -266,7 +266,9 @@ class Mutator {
     Plan mutant = plan_;
     mutant.waits = rows, mutant.batches = batches;
     judge(mutant, what + " removed", {});
-    clear_bits(&Plan::waits, at, &Wait::stages, what + ", stages", {});
+    // Where an earlier stage waits as well, tests are named only so that they see what the pass clears.
+    const Stages tests = row.stages & (stage::early_fragment_tests | stage::late_fragment_tests);
+    clear_bits(&Plan::waits, at, &Wait::stages, what + ", stages", tests != 0 && tests != row.stages ? "tests against the pass's own clear" : "");
     if (row.value > 1)
       change(
           &Plan::waits, at, [](Wait& w) { --w.value; }, what + ", for an earlier value",
