@@ -109,17 +109,16 @@ bool Harmless::depend(Index a, Index b, Index after) const {
   return false;
 }
 
-// Both write only, and so does whoever comes to it next, all of it and always: neither is missed.
+// Both write only, and so do all who come to it next, until one that always runs writes all of it: neither is missed.
 bool Harmless::is_overwritten(const Access& x, const Access& y, Index after) const {
   if (reads(x) || reads(y)) return false;
   for (Index s = after; s < plan_.steps.size(); ++s) {
     if (plan_.steps[s].kind != StepKind::pass) continue;
-    const Index pass = plan_.steps[s].index;
-    const auto touches = [&](const Access& row) { return row.ref == x.ref && (meet(row.range, x.range) || meet(row.range, y.range)); };
-    const auto covers = [&](const Access& row) { return row.range == x.range && row.range == y.range && row.bytes == x.bytes && !reads(row); };
-    const auto rows = accesses_of(pass);
-    if (std::none_of(rows.begin(), rows.end(), touches)) continue;
-    return runs_always(pass) && std::all_of(rows.begin(), rows.end(), [&](const Access& row) { return !touches(row) || covers(row); });
+    for (const Access& row : accesses_of(plan_.steps[s].index)) {
+      if (row.ref != x.ref || (!meet(row.range, x.range) && !meet(row.range, y.range))) continue;
+      if (reads(row)) return false;
+      if (row.range == x.range && row.range == y.range && row.bytes == x.bytes && runs_always(plan_.steps[s].index)) return true;
+    }
   }
   return false;
 }
