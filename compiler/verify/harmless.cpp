@@ -104,23 +104,31 @@ bool Harmless::depend(Index a, Index b, Index after) const {
   for (const Access& x : accesses_of(a))
     for (const Access& y : accesses_of(b))
       if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref) &&
-          !(commutes_in(a, x.ref) && commutes_in(b, x.ref)) && !is_overwritten(x, y, after))
+          !(commutes_in(a, x.ref) && commutes_in(b, x.ref)) && !is_overwritten(a, b, x, y, after))
         return true;
   return false;
 }
 
 // Both write only, and so do all who come to it next, until one that always runs writes all of it: neither is missed.
-bool Harmless::is_overwritten(const Access& x, const Access& y, Index after) const {
-  if (reads(x) || reads(y)) return false;
+bool Harmless::is_overwritten(Index a, Index b, const Access& x, const Access& y, Index after) const {
+  if (needs_contents(a, x.ref) || needs_contents(b, x.ref)) return false;
   for (Index s = after; s < plan_.steps.size(); ++s) {
     if (plan_.steps[s].kind != StepKind::pass) continue;
     for (const Access& row : accesses_of(plan_.steps[s].index)) {
       if (row.ref != x.ref || (!meet(row.range, x.range) && !meet(row.range, y.range))) continue;
-      if (reads(row)) return false;
+      if (needs_contents(plan_.steps[s].index, x.ref)) return false;
       if (row.range == x.range && row.range == y.range && row.bytes == x.bytes && runs_always(plan_.steps[s].index)) return true;
     }
   }
   return false;
+}
+
+// By the program: in the plan, an attachment is loaded as well where the pass may be skipped.
+bool Harmless::needs_contents(Index pass, Ref ref) const {
+  const auto& accesses = graph_.passes.rows[program_pass_[pass]].accesses;
+  return std::any_of(accesses.begin(), accesses.end(), [&](const dsl::Access& access) {
+    return access.resource.value == program_resource_[ref.resource] && access.age == ref.age && access.mode != dsl::Mode::write;
+  });
 }
 
 bool Harmless::runs_always(Index pass) const {

@@ -33,7 +33,8 @@ class Harmless {
   bool draws_to(const Pass& pass, Index attachment) const;
   bool leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const;
   bool depend(Index a, Index b, Index after) const;
-  bool is_overwritten(const Access& x, const Access& y, Index after) const;
+  bool is_overwritten(Index a, Index b, const Access& x, const Access& y, Index after) const;
+  bool needs_contents(Index pass, Ref ref) const;
   bool runs_always(Index pass) const;
   bool commutes_in(Index pass, Ref ref) const;
   bool is_read(Ref ref) const;
