@@ -92,7 +92,8 @@ Rows spectrum_rows(const demo::Scene& scene, demo::Renderer& renderer) {
   Rows rows;
   for (size_t camera = 0; camera < scene.cameras.size(); ++camera) {
     auto times = measure(scene, camera, {{"chosen", &renderer, {}, is_light}, {"full", &renderer, full, is_light}});
-    if (!times.empty()) rows.push_back({"frame/light/" + scene.cameras[camera].name, times["chosen"], "ms", times["full"], "one kernel with everything"});
+    if (!times.empty())
+      rows.push_back({"frame/light/" + scene.cameras[camera].name, times["chosen"], "ms", times["full"], "one kernel with everything"});
   }
   return rows;
 }

@@ -15,7 +15,8 @@ namespace {
 
 using packing::Item;
 
-// Transients of a frame at 3840x2160: images of full size down to a sixteenth, some with mips or layers, buffers of any size; most live for a few passes.
+// Transients of a frame at 3840x2160: images of full size down to a sixteenth, some with mips or layers, buffers of any size; most live for a few
+// passes.
 std::vector<Item> random_frame(uint32_t seed, size_t count, bool round_buffers) {
   std::mt19937_64 random(seed);
   const auto chance = [&](double share) { return static_cast<double>(random() >> 11) * 0x1p-53 < share; };

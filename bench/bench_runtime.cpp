@@ -81,9 +81,12 @@ void add_overhead(const std::string& graph_name, const Plan& plan, Rows& rows) {
   const auto plain = overhead_ns(plan, inputs.frame, false), timed = overhead_ns(plan, inputs.frame, true);
   if (!plain || !timed) return;
   const auto passes = static_cast<double>(plan.passes.size());
-  rows.push_back({"runtime/" + graph_name + "/overhead", *plain / passes, "ns", 15, "a pass, empty callbacks, functions that do nothing; the bound of the project"});
-  rows.push_back({"runtime/" + graph_name + "/overhead_timed", *timed / passes, "ns", *plain / passes, "... with two timestamps a pass, beside without"});
-  rows.push_back({"runtime/" + graph_name + "/calls", static_cast<double>(calls_of_a_frame(plan, inputs.frame)), "count", {}, "Vulkan calls of one frame"});
+  rows.push_back({"runtime/" + graph_name + "/overhead", *plain / passes, "ns", 15,
+                  "a pass, empty callbacks, functions that do nothing; the bound of the project"});
+  rows.push_back(
+      {"runtime/" + graph_name + "/overhead_timed", *timed / passes, "ns", *plain / passes, "... with two timestamps a pass, beside without"});
+  rows.push_back(
+      {"runtime/" + graph_name + "/calls", static_cast<double>(calls_of_a_frame(plan, inputs.frame)), "count", {}, "Vulkan calls of one frame"});
 }
 
 std::vector<int64_t> initial_extents(const Plan& plan) {

@@ -15,7 +15,7 @@ struct Bench {
 };
 constexpr Bench kBenches[] = {{"planner", bench_planner},   {"front_end", bench_front_end}, {"checker", bench_checker},
                               {"executor", bench_executor}, {"packing", bench_packing},     {"runtime", bench_runtime},
-                              {"variants", bench_variants}, {"frame", bench_frame}, {"creation", bench_creation}};
+                              {"variants", bench_variants}, {"frame", bench_frame},         {"creation", bench_creation}};
 
 void print_text(const Rows& rows) {
   for (const Row& row : rows) {

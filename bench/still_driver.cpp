@@ -52,11 +52,15 @@ VkResult VKAPI_CALL create_buffer(VkDevice, const VkBufferCreateInfo* info, cons
   sizes[handles] = info->size;
   return VK_SUCCESS;
 }
-void VKAPI_CALL image_requirements(VkDevice, VkImage image, VkMemoryRequirements* out) { *out = {sizes[reinterpret_cast<uint64_t>(image)], 65536, 1}; }
+void VKAPI_CALL image_requirements(VkDevice, VkImage image, VkMemoryRequirements* out) {
+  *out = {sizes[reinterpret_cast<uint64_t>(image)], 65536, 1};
+}
 void VKAPI_CALL image_requirements_2(VkDevice device, const VkImageMemoryRequirementsInfo2* info, VkMemoryRequirements2* out) {
   image_requirements(device, info->image, &out->memoryRequirements);
 }
-void VKAPI_CALL buffer_requirements(VkDevice, VkBuffer buffer, VkMemoryRequirements* out) { *out = {sizes[reinterpret_cast<uint64_t>(buffer)], 256, 1}; }
+void VKAPI_CALL buffer_requirements(VkDevice, VkBuffer buffer, VkMemoryRequirements* out) {
+  *out = {sizes[reinterpret_cast<uint64_t>(buffer)], 256, 1};
+}
 VkResult VKAPI_CALL map_memory(VkDevice, VkDeviceMemory, VkDeviceSize, VkDeviceSize, VkMemoryMapFlags, void** data) {
   *data = mapped;
   return VK_SUCCESS;
@@ -85,13 +89,15 @@ void VKAPI_CALL properties(VkPhysicalDevice, VkPhysicalDeviceProperties* out) {
 void VKAPI_CALL memory_properties(VkPhysicalDevice, VkPhysicalDeviceMemoryProperties* out) {
   *out = {};
   out->memoryTypeCount = out->memoryHeapCount = 1;
-  out->memoryTypes[0].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  out->memoryTypes[0].propertyFlags =
+      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 void VKAPI_CALL families(VkPhysicalDevice, uint32_t* count, VkQueueFamilyProperties* out) {
   *count = 1;
   if (out != nullptr) *out = {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, 1, 64, {1, 1, 1}};
 }
-VkResult VKAPI_CALL image_formats(VkPhysicalDevice, VkFormat, VkImageType, VkImageTiling, VkImageUsageFlags, VkImageCreateFlags, VkImageFormatProperties* out) {
+VkResult VKAPI_CALL image_formats(VkPhysicalDevice, VkFormat, VkImageType, VkImageTiling, VkImageUsageFlags, VkImageCreateFlags,
+                                  VkImageFormatProperties* out) {
   *out = {{16384, 16384, 16384}, 15, 2048, VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT, 1ull << 36};
   return VK_SUCCESS;
 }

@@ -96,8 +96,15 @@ class Uncovered {
 class Finder {
  public:
   Finder(PlanData& plan, const OverAt& over_at)
-      : plan_(plan), over_at_(over_at), queues_(plan.queues.size()), releases_(queues_), last_point_(queues_), batch_of_(queues_), covered_(plan.batches.size()),
-        signalled_(plan.batches.size(), Clock(2 * queues_)), relied_(plan.batches.size()) {
+      : plan_(plan),
+        over_at_(over_at),
+        queues_(plan.queues.size()),
+        releases_(queues_),
+        last_point_(queues_),
+        batch_of_(queues_),
+        covered_(plan.batches.size()),
+        signalled_(plan.batches.size(), Clock(2 * queues_)),
+        relied_(plan.batches.size()) {
     for (size_t b = 0; b < plan.batches.size(); ++b)
       if (plan.batches[b].signal_count > 0) batch_of_[plan.batches[b].queue].push_back(b);
     number_points();

@@ -3,13 +3,13 @@
 //   queue 0   group 0   A   group 1   B   end 2                     release of what A used last: point 1 of queue 0
 //   queue 1                                  wait   group 0   C     clock of what C acquires: 2 on queue 0, so A and B have completed
 //
-// A wait counts for an acquire whose hand-off goes on after it: the stages of the acquire's first users, or earlier ones, meet those of the wait or later
-// ones. A signal counts for releases in its stages or earlier ones; a chain over a third queue needs the stages of its wait and its signal to meet in the same
-// way. Nothing is added to the plan but what it implies already.
+// A wait counts for an acquire whose hand-off goes on after it: the stages of the acquire's first users, or earlier ones, meet those of the wait or
+// later ones. A signal counts for releases in its stages or earlier ones; a chain over a third queue needs the stages of its wait and its signal to
+// meet in the same way. Nothing is added to the plan but what it implies already.
 //
 // Signals name what their waiters need, and say nothing of what ran before in other stages: memory that it used last is then not known to be free. So
-// silent_stages() says what they would have to name besides, and a plan made with that is taken where it saves memory. A signal comes after its batch in the cost
-// model anyway, and no wait is added.
+// silent_stages() says what they would have to name besides, and a plan made with that is taken where it saves memory. A signal comes after its batch
+// in the cost model anyway, and no wait is added.
 #pragma once
 
 #include "compiler/plan_data.h"
@@ -23,8 +23,8 @@ namespace rg::compiler {
 // `over_at`: what else is known to come before signals.
 void find_alias_clocks(PlanData& plan, const OverAt& over_at = {});
 
-// By batch: stages of releases that its signal would have to name for clocks to count further, as few as can be on two queues (points that stab intervals
-// from a release to the signal that a clock rests on). Empty if no clock would. Cost as above.
+// By batch: stages of releases that its signal would have to name for clocks to count further, as few as can be on two queues (points that stab
+// intervals from a release to the signal that a clock rests on). Empty if no clock would. Cost as above.
 std::vector<Stages> silent_stages(const PlanData& plan);
 
 }  // namespace rg::compiler

@@ -86,7 +86,8 @@ class Annealer {
   }
   SegmentInterval interval(uint32_t item) const {
     SegmentInterval result;
-    for (const uint32_t user : users_.of(item)) result.begin = std::min(result.begin, segments_[user]), result.end = std::max(result.end, segments_[user]);
+    for (const uint32_t user : users_.of(item))
+      result.begin = std::min(result.begin, segments_[user]), result.end = std::max(result.end, segments_[user]);
     return result;
   }
 
@@ -152,7 +153,8 @@ class Annealer {
     for (uint32_t i = 0; i < intervals_.size(); ++i) begins[intervals_[i].begin] += weights_[i];
     std::vector<bool> tied(count);
     for (uint32_t node = 0; node < problem_.nodes; ++node)
-      for (const auto& link : after_.of(node)) tied[segments_[node]] = tied[segments_[node]] || (link.gap == 1 && segments_[link.node] == segments_[node] + 1);
+      for (const auto& link : after_.of(node))
+        tied[segments_[node]] = tied[segments_[node]] || (link.gap == 1 && segments_[link.node] == segments_[node] + 1);
     std::vector<uint32_t> spare, full;
     for (uint32_t s = 0; s < count; ++s) {
       if (s + 1 < count && !tied[s] && live_[s] + begins[s + 1] <= target_) spare.push_back(s);
@@ -193,7 +195,9 @@ class Annealer {
       hot_.insert(hot_.end(), users.begin(), users.end());
     }
   }
-  uint32_t pick_node() { return !hot_.empty() && random_.below(4) != 0 ? hot_[random_.below(static_cast<uint32_t>(hot_.size()))] : random_.below(problem_.nodes); }
+  uint32_t pick_node() {
+    return !hot_.empty() && random_.below(4) != 0 ? hot_[random_.below(static_cast<uint32_t>(hot_.size()))] : random_.below(problem_.nodes);
+  }
 
   uint32_t pick_target(uint32_t node) {
     uint32_t low = 0, high = static_cast<uint32_t>(live_.size()) - 1;
@@ -256,7 +260,7 @@ class Annealer {
     for (size_t i = changes_; i-- > 0;) live_[changed_[i].segment] = changed_[i].live, energy_[changed_[i].segment] = changed_[i].energy;
   }
 
-  double add(uint32_t begin, uint32_t end, double weight) {  // half-open
+  double add(uint32_t begin, uint32_t end, double weight) {                                           // half-open
     if (changed_.size() < changes_ + (end - begin)) changed_.resize(2 * (changes_ + (end - begin)));  // never cleared: most moves log a few rows
     Changed* log = changed_.data() + changes_;
     changes_ += end - begin;

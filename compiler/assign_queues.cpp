@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <optional>
 #include <queue>
@@ -272,8 +272,7 @@ class Assigner {
       const dsl::Pass& pass = frame_.pass(one_queue_.order[node]);
       if (pass.queue == dsl::QueueKind::graphics) continue;
       const uint32_t queue = queue_of_kind(options_, pass.queue);
-      std::string why =
-          queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : why_not(one_queue_.order[node]);
+      std::string why = queue == UINT32_MAX ? fmt::format("there is no {} queue", kind_name(pass.queue)) : why_not(one_queue_.order[node]);
       if (why.empty() && pass.queue_may) problem_.nodes[node].away = queue;
       if (why.empty() && !pass.queue_may) problem_.nodes[node].home = queue;
       if (!why.empty()) plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});

@@ -45,8 +45,8 @@ bool writes_what(const dsl::Pass& pass, Test test) {
                      [&](const dsl::Access& access) { return access.mode != dsl::Mode::read && test(access); });
 }
 
-// Takes out those that the program knows of and reports them by themselves, so that they hide no others: what is allowed in its place, and what only such passes
-// wanted.
+// Takes out those that the program knows of and reports them by themselves, so that they hide no others: what is allowed in its place, and what only
+// such passes wanted.
 void report_known(std::vector<Dead>& dead, dsl::Diagnostics& diagnostics) {
   dsl::Diagnostics probe = diagnostics;
   std::vector<Dead> others;

@@ -13,7 +13,8 @@ void check_switches(const std::string& root_path, const dsl::Program& written, c
     for (const std::string& name : names) {
       const auto has = [&](const auto& rows) { return std::any_of(rows.begin(), rows.end(), [&](const auto& row) { return row.name == name; }); };
       const auto knows = [&](const dsl::Program& program) {
-        return has(program.graphs) || std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
+        return has(program.graphs) ||
+               std::any_of(program.graphs.begin(), program.graphs.end(), [&](const dsl::Graph& graph) { return has(rows_of(graph)); });
       };
       if (knows(planned) || knows(written)) continue;
       dsl::Diagnostic& error = diagnostics.report(dsl::DiagnosticKind::UnknownSubject, {}, {std::string(flag) + "=" + name, root_path});

@@ -57,7 +57,8 @@ std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const d
         if (spectrum.members[i].name == name) force |= Mask{1} << i;
     if (force == before) diagnostics.report(dsl::DiagnosticKind::UnknownName, {}, {"feature of a spectrum", name});
   }
-  const SpectrumOptions spectrum_options{options.spectrum_profile, options.spectrum_modes, force, cache, options.workers, options.progress, options.earlier};
+  const SpectrumOptions spectrum_options{options.spectrum_profile, options.spectrum_modes, force,          cache,
+                                         options.workers,          options.progress,       options.earlier};
   return resolve_spectra(result.program, shader_reader(root_path, read), replaced, result.sources, spectrum_options, diagnostics);
 }
 
@@ -103,8 +104,8 @@ CompiledGraph compile_graph_shaders(const std::string& root_path, const dsl::Rea
 }
 
 // One machine's part of the shaders of a graph, or the list of all parts.
-void run_graph_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options, const ShaderCache* cache,
-               CompileResult& result, dsl::Diagnostics& diagnostics) {
+void run_graph_tasks(const std::string& root_path, const dsl::ReadSource& read, dsl::GraphId id, const CompileOptions& options,
+                     const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
   const auto configurations = expand_configurations(result.program, id, options.fixed_features, options.max_plans, diagnostics);
   const VariantSpace space = find_variant_space(result.program, id, configurations, diagnostics);
   if (diagnostics.has_errors()) return;
@@ -117,8 +118,8 @@ void run_graph_tasks(const std::string& root_path, const dsl::ReadSource& read, 
               diagnostics);
 }
 
-CompileResult run_tasks(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, const ShaderCache* cache, CompileResult result,
-                        dsl::Diagnostics& diagnostics) {
+CompileResult run_tasks(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, const ShaderCache* cache,
+                        CompileResult result, dsl::Diagnostics& diagnostics) {
   for (size_t g = 0; g < result.program.graphs.size(); ++g) run_graph_tasks(root_path, read, dsl::GraphId{g}, options, cache, result, diagnostics);
   if (cache) result.cache = settle(*cache, diagnostics);
   return result;
@@ -138,7 +139,8 @@ std::vector<Capability> needs_of(const dsl::Program& program, dsl::GraphId graph
   return needs;
 }
 
-std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph& graph, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph& graph, const CompileOptions& options,
+                                dsl::Diagnostics& diagnostics) {
   const dsl::Program& program = result.program;
   PlanOptions plan_options = options.plan;
   if (!options.profile.empty()) plan_options.measured_us = measured_times(program, graph.graph, options.profile, options.profile_text, diagnostics);
@@ -189,7 +191,8 @@ void judge_plans(const CompileResult& result, const CompileOptions& options, dsl
 void judge_allowances(dsl::Diagnostics& diagnostics) {
   for (const dsl::Allowance& useless : diagnostics.useless()) {
     const std::string code(dsl::row(useless.kind).code);
-    diagnostics.report(dsl::Diagnostic(dsl::DiagnosticKind::AllowsNothing, useless.at, {code, "nothing here gives this warning"}).fix(useless.at, ""));
+    diagnostics.report(
+        dsl::Diagnostic(dsl::DiagnosticKind::AllowsNothing, useless.at, {code, "nothing here gives this warning"}).fix(useless.at, ""));
   }
 }
 

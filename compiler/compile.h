@@ -29,20 +29,20 @@ struct CompileOptions {
   size_t max_plans = 64;                    // feature configurations of one graph
   std::string cache_folder;                 // of compiled shaders, see shaders/cache.h; empty: none
   uint64_t cache_bytes = kDefaultCacheBytes;
-  unsigned workers = 0;                            // threads that compile shaders; 0: one a core
-  unsigned shard = 0, shards = 0;                  // more than 0 shards: only this part of the shaders, into the cache, and nothing else
-  bool list_tasks = false;                         // fills CompileResult::tasks and stops there
-  std::string spectrum_profile;                    // replaces the profiles of all spectra; empty: their own
-  dsl::ReadSource read_profile;                    // reads that file; empty: the reader of the sources
-  std::optional<uint32_t> spectrum_modes;          // replaces their numbers of kernels
-  std::vector<std::string> forced_features;        // of spectra: on in every mask
-  bool preview = false;                                        // soon rather than good, see ShaderEffort; CompileResult::complete says what it came to
-  const std::vector<SpectrumChoice>* earlier = nullptr;        // for a preview: of an earlier build, see SpectrumOptions::earlier
-  bool fuse = true;                                // false: every block is a kernel of its own
-  HalfRounding halves = HalfRounding::zero;        // of images on the devices this is for; see fusion/conversions.h
-  dsl::WarningPolicy warnings;                     // `--allow CODE`, `--deny CODE`
-  std::string command;                             // as it shall stand in the banner of generated files
-  std::function<void(std::string_view)> progress;  // what is being worked on, for a person; may be empty
+  unsigned workers = 0;                                  // threads that compile shaders; 0: one a core
+  unsigned shard = 0, shards = 0;                        // more than 0 shards: only this part of the shaders, into the cache, and nothing else
+  bool list_tasks = false;                               // fills CompileResult::tasks and stops there
+  std::string spectrum_profile;                          // replaces the profiles of all spectra; empty: their own
+  dsl::ReadSource read_profile;                          // reads that file; empty: the reader of the sources
+  std::optional<uint32_t> spectrum_modes;                // replaces their numbers of kernels
+  std::vector<std::string> forced_features;              // of spectra: on in every mask
+  bool preview = false;                                  // soon rather than good, see ShaderEffort; CompileResult::complete says what it came to
+  const std::vector<SpectrumChoice>* earlier = nullptr;  // for a preview: of an earlier build, see SpectrumOptions::earlier
+  bool fuse = true;                                      // false: every block is a kernel of its own
+  HalfRounding halves = HalfRounding::zero;              // of images on the devices this is for; see fusion/conversions.h
+  dsl::WarningPolicy warnings;                           // `--allow CODE`, `--deny CODE`
+  std::string command;                                   // as it shall stand in the banner of generated files
+  std::function<void(std::string_view)> progress;        // what is being worked on, for a person; may be empty
 };
 
 // One graph: its shaders, and a plan for each feature configuration.
@@ -61,7 +61,7 @@ struct CompileResult {
   dsl::Program written;                 // the program before its blocks became kernels
   std::vector<FusedKernel> fused;
   std::vector<FusionRefusal> not_fused;
-  dsl::Program unfolded;                // the program with kernels, before renderings took in passes that clear and resolve
+  dsl::Program unfolded;  // the program with kernels, before renderings took in passes that clear and resolve
   std::vector<Fold> folded;
   std::vector<FoldRefusal> not_folded;
   std::vector<CompiledGraph> graphs;    // in order of declaration

@@ -41,7 +41,8 @@ void fix(const dsl::Program& program, const std::string& text, Configuration& fi
     if (feature.name != name) continue;
     const std::vector<std::string_view> values(feature.values.begin(), feature.values.end());
     const auto found = static_cast<uint32_t>(std::find(values.begin(), values.end(), value) - values.begin());
-    if (found == values.size()) return guess(diagnostics.report(DiagnosticKind::UnknownSettingValue, {}, {value, name, listed(values)}), value, values);
+    if (found == values.size())
+      return guess(diagnostics.report(DiagnosticKind::UnknownSettingValue, {}, {value, name, listed(values)}), value, values);
     if (fixed[f] != kFreeFeature && fixed[f] != found) diagnostics.report(DiagnosticKind::RepeatedSetting, {}, {name});
     fixed[f] = found;
     return;

@@ -37,7 +37,7 @@ ContentsOfUses find_contents(const Frame& frame, const std::vector<Line>& lines)
                           (last ? needed_at_exit(resource, epoch.age, frame.grids[frame.cells[line.cell].resource].ages) : line.epochs[i + 1].needs);
       for (size_t e = 0; e < epoch.events.size(); ++e)
         result[use_index(frame, epoch.events[e].pass, line.cell + epoch.age * stride)] = {defined || (epoch.writes && e > 0),
-                                                                                           needed || (one_by_one && e + 1 < epoch.events.size())};
+                                                                                          needed || (one_by_one && e + 1 < epoch.events.size())};
       defined = defined || epoch.writes;
     }
   }

@@ -79,8 +79,8 @@ class Dropper {
     }
   }
 
-  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done, since the signal before, to transients that are released
-  // there. No wait is kept for that, so waits are settled by now.
+  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done, since the signal before, to transients that
+  // are released there. No wait is kept for that, so waits are settled by now.
   void rest_on_memory(const std::vector<Line>& lines) {
     if (std::none_of(sync_.batches.begin(), sync_.batches.end(), [](const BatchSync& batch) { return batch.for_memory != 0; })) return;
     std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> uses;  // by resource and queue
@@ -91,7 +91,8 @@ class Dropper {
       uint32_t last = 0;
       for (const uint32_t use : list) last = std::max(last, order_.sources[use].after);
       const auto& signals = signals_on_[of.second];
-      const auto at = std::find_if(signals.begin(), signals.end(), [&](uint32_t s) { return !order_.scopes[s].gone && order_.scopes[s].point >= last; });
+      const auto at =
+          std::find_if(signals.begin(), signals.end(), [&](uint32_t s) { return !order_.scopes[s].gone && order_.scopes[s].point >= last; });
       if (at == signals.end() || sync_.batches[order_.scopes[*at].slot].for_memory == 0) continue;
       if (rest_on_signal(list, order_.scopes[*at])) sync_.over_at[of] = order_.scopes[*at].slot;
     }

@@ -46,7 +46,9 @@ Index engine_set_of(const dsl::Program& program, const std::string& bind) {
 
 // A rendering of several passes loads what some of them need and stores what some of them wrote, whatever the pass at hand does itself.
 void add_loads_and_stores(const Schedule& schedule, size_t position, PlanData& plan, const Pass& row) {
-  const auto shares = [&](size_t other) { return other < schedule.order.size() && schedule.one_rendering(schedule.order[position], schedule.order[other]); };
+  const auto shares = [&](size_t other) {
+    return other < schedule.order.size() && schedule.one_rendering(schedule.order[position], schedule.order[other]);
+  };
   if (row.rendering == kNone || (!shares(position + 1) && (position == 0 || !shares(position - 1)))) return;
   const Rendering& rendering = plan.renderings[row.rendering];
   const auto add = [&](const Attachment& attachment, Accesses reads, Accesses writes) {

@@ -91,7 +91,8 @@ Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, co
   Attachment row;
   row.ref = plan_ref(indices, access.resource, access.age);
   row.range = range;
-  if (resource.dimension == dsl::Dimension::d3) row.slice = is_slice(access) ? access.range.slice : 0, row.slices = slices_of(parts, resource, access);
+  if (resource.dimension == dsl::Dimension::d3)
+    row.slice = is_slice(access) ? access.range.slice : 0, row.slices = slices_of(parts, resource, access);
   if (access.view != dsl::Format::none) row.view_format = format_row(access.view).vulkan;
   row.layout = found.layout;
   const bool discards = may_discard(parts.options, resource);

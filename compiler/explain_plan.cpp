@@ -141,8 +141,9 @@ void explain_memory(const PlanData& plan, Decisions& out) {
       text += neighbours_text(plan, neighbours.before[r], neighbours.after[r], r);
     out.push_back({std::string(resource.name), "placed", std::move(text)});
     if (resource.lazy)
-      out.push_back({std::string(resource.name), "lazy",
-                     "no rendering loads or stores it and nothing else sees it: where a device has lazily allocated memory it takes none of the heap"});
+      out.push_back(
+          {std::string(resource.name), "lazy",
+           "no rendering loads or stores it and nothing else sees it: where a device has lazily allocated memory it takes none of the heap"});
   }
 }
 
@@ -161,7 +162,8 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
   const std::vector<Index> groups = groups_of_slots(parts);
   for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
     for (const CellBarrier& b : parts.sync.groups[slot]) {
-      const std::string reason = fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
+      const std::string reason =
+          fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
       const dsl::Resource& row = parts.frame.resource_of(b.cell);
       const std::string& resource = row.name;
       const std::string change = remedy(b, row.kind == dsl::ResourceKind::image);

@@ -47,7 +47,8 @@ struct Lives {
 
 class Folder {
  public:
-  Folder(const dsl::Program& program, dsl::GraphId id, const PlanOptions& options, const std::vector<std::string>& fixed, size_t most_plans, FoldResult& result)
+  Folder(const dsl::Program& program, dsl::GraphId id, const PlanOptions& options, const std::vector<std::string>& fixed, size_t most_plans,
+         FoldResult& result)
       : program_(program), graph_(program.graphs[id]), id_(id), options_(options), fixed_(fixed), most_plans_(most_plans), result_(result) {}
 
   // Nothing where every pass stays.
@@ -70,14 +71,14 @@ class Folder {
     uint32_t transfer = 0, into = 0;  // passes
     std::vector<uint32_t> cleared;    // accesses of `into`
     dsl::ClearValue value;
-    uint32_t source = dsl::kAll;      // access of `into` that is resolved
+    uint32_t source = dsl::kAll;  // access of `into` that is resolved
     Access target;
   };
 
   static bool is_candidate(const dsl::Pass& pass) {
-    return pass.kind == PassKind::transfer && !pass.transfers.empty() && std::all_of(pass.transfers.begin(), pass.transfers.end(), [](const dsl::Transfer& t) {
-      return t.kind == TransferKind::clear || t.kind == TransferKind::resolve;
-    });
+    return pass.kind == PassKind::transfer && !pass.transfers.empty() &&
+           std::all_of(pass.transfers.begin(), pass.transfers.end(),
+                       [](const dsl::Transfer& t) { return t.kind == TransferKind::clear || t.kind == TransferKind::resolve; });
   }
 
   void index() {
@@ -141,7 +142,8 @@ class Folder {
       if (!is_attachment(access.role)) return fmt::format("{} otherwise than as an attachment", use_text({edit.into, a}));
       if (std::string why = drawn_obstacle(access, all, edit.into); !why.empty()) return why;
       if (access.mode == dsl::Mode::read) return fmt::format("{} only, and what is read only is not cleared", use_text({edit.into, a}));
-      if (access.clear || !needs_contents(pass(edit.into), access)) return fmt::format("`{}` defines all of `{}` itself", name(edit.into), name_of_image);
+      if (access.clear || !needs_contents(pass(edit.into), access))
+        return fmt::format("`{}` defines all of `{}` itself", name(edit.into), name_of_image);
       aspects |= resolved_range(image(access), access).aspects;
       edit.cleared.push_back(a);
     }
@@ -154,7 +156,8 @@ class Folder {
     for (const uint32_t own : {transfer.src, transfer.dst})
       if (std::string why = own_obstacle(edit.transfer, own); !why.empty()) return why;
     const FormatRow& format = format_row(image(from).format);
-    if (format.integer || format.aspects != aspect_color) return fmt::format("which sample of `{}` stays is not the same everywhere", image(from).name);
+    if (format.integer || format.aspects != aspect_color)
+      return fmt::format("which sample of `{}` stays is not the same everywhere", image(from).name);
     const Touch* writer = last_writer(edit.transfer, from);
     if (writer == nullptr) return fmt::format("no pass before it draws to `{}` in the frame", image(from).name);
     edit.into = writer->pass, edit.source = writer->access, edit.target = to;
@@ -178,7 +181,8 @@ class Folder {
     const auto same = [&](const Edit& other) {
       return other.into == edit.into && other.source != dsl::kAll && row.accesses[other.source].resource == source;
     };
-    const bool declared = std::any_of(row.transfers.begin(), row.transfers.end(), [&](const dsl::Transfer& t) { return row.accesses[t.src].resource == source; });
+    const bool declared =
+        std::any_of(row.transfers.begin(), row.transfers.end(), [&](const dsl::Transfer& t) { return row.accesses[t.src].resource == source; });
     if (declared || std::any_of(edits_.begin(), edits_.end(), same) || std::any_of(earlier.begin(), earlier.end(), same))
       return fmt::format("`{}` resolves `{}` already", row.name, graph_.resources[source].name);
     return {};
@@ -197,7 +201,8 @@ class Folder {
     });
     if (between != touches.end()) return fmt::format("{} before it, and after `{}` it would be another", use_text(*between), name(edit.into));
     const auto is_drawn = [&](const Touch& touch) { return access(touch).role == Role::color || access(touch).role == Role::resolve_dst; };
-    const bool drawn = std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return pass(t.pass).kind == PassKind::raster && is_drawn(t); });
+    const bool drawn =
+        std::any_of(touches.begin(), touches.end(), [&](const Touch& t) { return pass(t.pass).kind == PassKind::raster && is_drawn(t); });
     if (target.lifetime == dsl::Lifetime::imported && !drawn)
       return fmt::format("no pass draws to `{}`, so that whoever brings it may not have made it an attachment", target.name);
     return {};
@@ -207,10 +212,12 @@ class Folder {
   std::string drawn_obstacle(const Access& drawn, const Range& all, uint32_t into) const {
     const dsl::Resource& row = image(drawn);
     const Range range = resolved_range(row, drawn);
-    if (range.mip != all.mip || range.mips != all.mips || range.layer != all.layer || range.layers != all.layers || (range.aspects & ~all.aspects) != 0)
+    if (range.mip != all.mip || range.mips != all.mips || range.layer != all.layer || range.layers != all.layers ||
+        (range.aspects & ~all.aspects) != 0)
       return fmt::format("`{}` draws to another part of `{}`", name(into), row.name);
     if (row.dimension == dsl::Dimension::d3) return fmt::format("`{}` draws to slices of `{}`", name(into), row.name);
-    if (drawn.view != dsl::Format::none && drawn.view != row.format) return fmt::format("`{}` sees `{}` through another format", name(into), row.name);
+    if (drawn.view != dsl::Format::none && drawn.view != row.format)
+      return fmt::format("`{}` sees `{}` through another format", name(into), row.name);
     return {};
   }
 
@@ -227,7 +234,8 @@ class Folder {
     const dsl::Pass &a = pass(transfer), &b = pass(raster);
     if (options_.no_fold.contains(b.name)) return fmt::format("`--no-fold={}`", b.name);
     if (!same_set(a.guard.terms, b.guard.terms)) return fmt::format("`{}` is there with other features", b.name);
-    if (!same_set(a.conditions, b.conditions) || !same_set(a.mip_limits, b.mip_limits)) return fmt::format("`{}` runs under other conditions", b.name);
+    if (!same_set(a.conditions, b.conditions) || !same_set(a.mip_limits, b.mip_limits))
+      return fmt::format("`{}` runs under other conditions", b.name);
     if (a.queue != b.queue && !a.queue_may) return fmt::format("it names another queue than `{}`", b.name);
     return {};
   }
@@ -240,13 +248,19 @@ class Folder {
   const dsl::Resource& image(const Access& access) const { return graph_.resources[access.resource]; }
   std::string use_text(const Touch& touch) const {
     const Access& row = access(touch);
-    return fmt::format("`{}` {} `{}`", name(touch.pass), row.mode == dsl::Mode::read ? "reads" : is_attachment(row.role) ? "draws to" : "writes", image(row).name);
+    return fmt::format("`{}` {} `{}`", name(touch.pass),
+                       row.mode == dsl::Mode::read ? "reads"
+                       : is_attachment(row.role)   ? "draws to"
+                                                   : "writes",
+                       image(row).name);
   }
 
   bool overlap(const Access& a, const Access& b) const {
     if (a.resource != b.resource || a.age != b.age) return false;
     const Range x = resolved_range(image(a), a), y = resolved_range(image(b), b);
-    const auto meet = [](uint32_t first, uint32_t count, uint32_t other, uint32_t other_count) { return first < other + other_count && other < first + count; };
+    const auto meet = [](uint32_t first, uint32_t count, uint32_t other, uint32_t other_count) {
+      return first < other + other_count && other < first + count;
+    };
     return (x.aspects & y.aspects) != 0 && meet(x.mip, x.mips, y.mip, y.mips) && meet(x.layer, x.layers, y.layer, y.layers);
   }
 
@@ -315,8 +329,9 @@ class Folder {
 std::string parts_text(const Fold& fold) {
   std::string text;
   for (const Fold::Part& part : fold.parts)
-    text += (text.empty() ? "" : "; ") + (part.target.empty() ? fmt::format("`{}` begins with `{}` cleared", part.into, part.image)
-                                                              : fmt::format("`{}` ends with `{}` resolved to `{}`", part.into, part.image, part.target));
+    text +=
+        (text.empty() ? "" : "; ") + (part.target.empty() ? fmt::format("`{}` begins with `{}` cleared", part.into, part.image)
+                                                          : fmt::format("`{}` ends with `{}` resolved to `{}`", part.into, part.image, part.target));
   return text;
 }
 
@@ -336,9 +351,12 @@ Decisions fold_decisions(const std::vector<Fold>& folds, const std::vector<FoldR
   Decisions decisions;
   for (const Fold& fold : folds) {
     if (fold.graph != graph) continue;
-    decisions.push_back({fold.pass, "folded", fmt::format("{}: no pass, barrier, load or store of its own; with `--no-fold={}` it would be one", parts_text(fold), fold.pass)});
+    decisions.push_back(
+        {fold.pass, "folded",
+         fmt::format("{}: no pass, barrier, load or store of its own; with `--no-fold={}` it would be one", parts_text(fold), fold.pass)});
     for (const Fold::Part& part : fold.parts)
-      decisions.push_back({part.into, part.target.empty() ? "clears" : "resolves", fmt::format("`{}`, in place of pass `{}`", part.image, fold.pass)});
+      decisions.push_back(
+          {part.into, part.target.empty() ? "clears" : "resolves", fmt::format("`{}`, in place of pass `{}`", part.image, fold.pass)});
   }
   for (const FoldRefusal& refusal : refusals)
     if (refusal.graph == graph) decisions.push_back({refusal.pass, "not folded", refusal.reason});

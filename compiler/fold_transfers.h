@@ -9,8 +9,8 @@
 //   * a resolve: the last pass that wrote anything of the source draws to just what is resolved, and from there on nobody touches the target;
 //   * both passes run in the same configurations and under the same conditions, on one queue, and are live in the same plans;
 //   * nothing names the transfer pass: no `after`, `keep`, assertion or switch.
-// Integers are not resolved so, because commands may keep another sample than renderings; neither is an imported target that is drawn to nowhere, because
-// the engine may not have made it for that.
+// Integers are not resolved so, because commands may keep another sample than renderings; neither is an imported target that is drawn to nowhere,
+// because the engine may not have made it for that.
 //
 // The program stays what it means pass by pass. Proved after the fact by compiler/verify/folding.h, which shares no code with this.
 #pragma once

@@ -57,7 +57,7 @@ class Gatherer {
   const Frame& frame_;
   const Schedule& schedule_;
   SyncPlan& sync_;
-  std::vector<std::vector<uint32_t>> uses_;                                                                                    // by cell: segments
+  std::vector<std::vector<uint32_t>> uses_;  // by cell: segments
   std::map<decltype(meaning(std::declval<const Frame&>(), std::declval<const CellBarrier&>(), 0)), std::vector<uint32_t>> places_;  // segments
 };
 

@@ -370,7 +370,7 @@ Finding overlaps(const Question& q) {
   const std::string on = q.assertion.fact.substr(std::string("overlaps").size());
   return every_pair(
       q, find_passes,
-      on.empty()             ? "separated by a barrier"
+      on.empty()              ? "separated by a barrier"
       : on == " on one_queue" ? "separated by a barrier, or on two queues"
                               : "separated by a barrier, or on one queue",
       [&](const PlanFigures& figures, uint32_t a, uint32_t b) {

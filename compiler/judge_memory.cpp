@@ -43,7 +43,8 @@ void judge_memory(const dsl::Program& program, dsl::GraphId graph_id, dsl::Diagn
     const dsl::Pass* user = first_user(graph, r);
     if (!user) continue;
     const char* kind = resource.kind == dsl::ResourceKind::image ? "image" : "buffer";
-    const std::string way_out = fmt::format("pass `{}` uses it first: make it smaller or several, or name a target profile with a greater `{}`", user->name, kLimit);
+    const std::string way_out =
+        fmt::format("pass `{}` uses it first: make it smaller or several, or name a target profile with a greater `{}`", user->name, kLimit);
     diagnostics.report(dsl::DiagnosticKind::NoMemoryHolds, resource.span, {kind, resource.name, gibibytes(bytes), gibibytes(most), way_out});
   }
 }

@@ -22,7 +22,13 @@ class Cutter {
  public:
   Cutter(const Frame& frame, const Graph& graph, const Schedule& one_queue, const QueuePlan& plan, const std::vector<double>& costs,
          const PlanOptions& options)
-      : frame_(frame), one_queue_(one_queue), plan_(plan), costs_(costs), options_(options), before_(frame.passes.size()), piece_of_(frame.passes.size(), UINT32_MAX) {
+      : frame_(frame),
+        one_queue_(one_queue),
+        plan_(plan),
+        costs_(costs),
+        options_(options),
+        before_(frame.passes.size()),
+        piece_of_(frame.passes.size(), UINT32_MAX) {
     for (const auto& [before, after] : plan.extra) extra_.push_back({before, after, DependencyKind::order, UINT32_MAX});
     for (const Dependency& d : graph.dependencies) before_[d.after].push_back(&d);
     for (const Dependency& d : extra_) before_[d.after].push_back(&d);

@@ -36,8 +36,8 @@ struct Schedule {
   std::vector<SegmentCost> frontier;  // orders for one queue that were tried and not beaten in both costs
   uint64_t evaluations = 0;
   const char* method = "";
-  double score = 0;                // of the order on one queue; less is better, 0 where nothing was searched
-  std::vector<uint32_t> crowded;   // passes that continue a rendering which holds something where the most is live, ascending
+  double score = 0;               // of the order on one queue; less is better, 0 where nothing was searched
+  std::vector<uint32_t> crowded;  // passes that continue a rendering which holds something where the most is live, ascending
 
   bool one_rendering(uint32_t a, uint32_t b) const { return leader_of[a] == leader_of[b]; }
   uint32_t slots() const { return segments + batches; }

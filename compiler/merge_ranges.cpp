@@ -17,12 +17,14 @@ auto meaning(const Frame& frame, const CellBarrier& b) {
 
 // Of images: parts of a buffer have no layers that could lie side by side.
 bool join_layers(CellBarrier& a, const CellBarrier& b) {
-  if (a.range.aspects == 0 || a.range.mip != b.range.mip || a.range.mips != b.range.mips || a.range.layer + a.range.layers != b.range.layer) return false;
+  if (a.range.aspects == 0 || a.range.mip != b.range.mip || a.range.mips != b.range.mips || a.range.layer + a.range.layers != b.range.layer)
+    return false;
   a.range.layers += b.range.layers;
   return true;
 }
 bool join_mips(CellBarrier& a, const CellBarrier& b) {
-  if (a.range.aspects == 0 || a.range.layer != b.range.layer || a.range.layers != b.range.layers || a.range.mip + a.range.mips != b.range.mip) return false;
+  if (a.range.aspects == 0 || a.range.layer != b.range.layer || a.range.layers != b.range.layers || a.range.mip + a.range.mips != b.range.mip)
+    return false;
   a.range.mips += b.range.mips;
   return true;
 }

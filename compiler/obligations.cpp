@@ -56,8 +56,18 @@ class CellWalk {
 
   // `unread`: the readers that the rows name may all have been skipped.
   void enter(Rows rows, bool signalled, bool unread) {
-    Pending settled{
-        add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}), 0, 0, 0, UINT32_MAX, UINT32_MAX, nullptr, !unread, UINT32_MAX, nullptr, unread, {}};
+    Pending settled{add_source({SyncSource::Kind::settled, cell_, 0, 0, 0, 0, 0, signalled, {}}),
+                    0,
+                    0,
+                    0,
+                    UINT32_MAX,
+                    UINT32_MAX,
+                    nullptr,
+                    !unread,
+                    UINT32_MAX,
+                    nullptr,
+                    unread,
+                    {}};
     if (!rows.empty()) layout_ = rows.front().row.layout, owner_ = rows.front().row.discard ? kNone : rows.front().row.queue;
     bool writes = false, any = false;
     for (const auto& named : rows) {

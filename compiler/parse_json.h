@@ -13,7 +13,11 @@ inline std::optional<nlohmann::json> parse_json_object(std::string_view text, st
   try {
     auto json = nlohmann::json::parse(text);
     if (json.is_object()) return json;
-    why = std::string("it holds ") + (json.is_array() ? "a list" : json.is_null() ? "null" : std::string("a ") + json.type_name()) + ", not an object";
+    why = std::string("it holds ") +
+          (json.is_array()  ? "a list"
+           : json.is_null() ? "null"
+                            : std::string("a ") + json.type_name()) +
+          ", not an object";
   } catch (const nlohmann::json::out_of_range&) {
     why = "it holds a number that is too large";
   } catch (const nlohmann::json::parse_error& error) {

@@ -23,7 +23,8 @@ Plan PlanData::view() const {
   p.passes = passes, p.accesses = accesses, p.renderings = renderings, p.attachments = attachments;
   p.shaders = shaders, p.pipelines = pipelines, p.pipeline_shaders = pipeline_shaders, p.blends = blends;
   p.sample_locations = sample_locations;
-  p.vertex_buffers = vertex_buffers, p.vertex_bindings = vertex_bindings, p.vertex_attributes = vertex_attributes, p.bindings = bindings, p.samplers = samplers;
+  p.vertex_buffers = vertex_buffers, p.vertex_bindings = vertex_bindings, p.vertex_attributes = vertex_attributes, p.bindings = bindings,
+  p.samplers = samplers;
   p.params = params, p.pass_params = pass_params;
   p.features = features, p.pass_features = pass_features, p.pipeline_choices = pipeline_choices;
   p.transfers = transfers, p.mip_limits = mip_limits;

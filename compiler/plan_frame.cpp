@@ -76,7 +76,8 @@ Arrangement arrange(Frame frame, const std::vector<bool>& live, const PlanOption
 // Orders that neither has an equal of in both costs.
 std::vector<SegmentCost> join_frontiers(std::vector<SegmentCost> all, const std::vector<SegmentCost>& more) {
   all.insert(all.end(), more.begin(), more.end());
-  std::stable_sort(all.begin(), all.end(), [](const SegmentCost& a, const SegmentCost& b) { return std::pair(a.segments, a.peak) < std::pair(b.segments, b.peak); });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const SegmentCost& a, const SegmentCost& b) { return std::pair(a.segments, a.peak) < std::pair(b.segments, b.peak); });
   std::vector<SegmentCost> kept;
   for (const SegmentCost& cost : all)
     if (kept.empty() || cost.peak < kept.back().peak) kept.push_back(cost);
@@ -91,8 +92,8 @@ Arrangement better_of(Arrangement a, Arrangement b) {
   return takes_b ? std::move(b) : std::move(a);
 }
 
-// A rendering of several passes saves barriers and holds at once whatever they use. So where one stands in the fullest place of the order, another order
-// is looked for with its passes apart, and the better of the two by score is taken.
+// A rendering of several passes saves barriers and holds at once whatever they use. So where one stands in the fullest place of the order, another
+// order is looked for with its passes apart, and the better of the two by score is taken.
 Arrangement arrange_freely(Frame frame, const std::vector<bool>& live, const PlanOptions& options, Stopwatch& watch) {
   const bool weighs_memory = options.effort != Effort::fast && (options.prefer == Prefer::balance || options.prefer == Prefer::memory);
   if (!weighs_memory || !options.merge || !options.reorder) return arrange(std::move(frame), live, options, {}, watch);

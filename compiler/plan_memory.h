@@ -16,8 +16,8 @@ struct MemoryPlan {
   uint64_t lazy_bytes = 0, heap_beside_lazy_bytes = 0;  // images that may live on the chip; the heap of the others
 };
 
-// Fills Resource::estimated_offset of transients and Plan::estimated_heap_bytes. Pre-condition: find_alias_clocks(). `heap_beside_lazy_bytes` is only found
-// where it is asked for, because it takes as long again.
+// Fills Resource::estimated_offset of transients and Plan::estimated_heap_bytes. Pre-condition: find_alias_clocks(). `heap_beside_lazy_bytes` is only
+// found where it is asked for, because it takes as long again.
 MemoryPlan place_transients(PlanData& plan, Effort effort, bool beside_lazy);
 
 }  // namespace rg::compiler

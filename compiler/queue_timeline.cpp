@@ -54,7 +54,7 @@ class Simulator {
     size_t lowest = 0, released = 0;
     double free = 0;
     std::priority_queue<Ranked, std::vector<Ranked>, std::greater<>> now;  // may run as soon as the lane is free
-    std::priority_queue<Later, std::vector<Later>, std::greater<>> soon;       // by the time their inputs are there
+    std::priority_queue<Later, std::vector<Later>, std::greater<>> soon;   // by the time their inputs are there
   };
 
   double next_start(const Lane& lane) const {
@@ -74,7 +74,8 @@ class Simulator {
   }
 
   void start(Lane& lane, double at) {
-    while (!lane.soon.empty() && lane.soon.top().first <= at) lane.now.push({problem_.rank_of(lane.soon.top().second), lane.soon.top().second}), lane.soon.pop();
+    while (!lane.soon.empty() && lane.soon.top().first <= at)
+      lane.now.push({problem_.rank_of(lane.soon.top().second), lane.soon.top().second}), lane.soon.pop();
     const uint32_t node = lane.now.top().second;
     lane.now.pop();
     timeline_.start[node] = at, timeline_.order.push_back(node);
@@ -185,7 +186,8 @@ class Chooser {
     std::vector<std::vector<uint32_t>> neighbours[2] = {std::vector<std::vector<uint32_t>>(n), std::vector<std::vector<uint32_t>>(n)};
     const auto movable = [&](uint32_t node) { return problem_.nodes[node].away != UINT32_MAX; };
     for (const auto& edge : problem_.edges)
-      if (movable(edge.before) && movable(edge.after)) neighbours[0][edge.before].push_back(edge.after), neighbours[1][edge.after].push_back(edge.before);
+      if (movable(edge.before) && movable(edge.after))
+        neighbours[0][edge.before].push_back(edge.after), neighbours[1][edge.after].push_back(edge.before);
     for (uint32_t node = 0; node < n; ++node) {
       if (!movable(node)) continue;
       companies_.push_back({node});

@@ -48,8 +48,8 @@ QueueTimeline simulate(const QueueProblem& problem, const QueueOf& queue_of);
 struct QueueGain {
   double serial = 0;         // everything on one queue
   double critical_path = 0;  // longest chain, waits not counted
-  double bound = 0;          // no assignment ends earlier: the longest chain, what only one queue may run with what comes before and after, work by queues
-  double end = 0;            // of what was chosen
+  double bound = 0;  // no assignment ends earlier: the longest chain, what only one queue may run with what comes before and after, work by queues
+  double end = 0;    // of what was chosen
 };
 struct QueueChoice {
   QueueOf queue_of;

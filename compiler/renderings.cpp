@@ -35,9 +35,8 @@ Key key_of(const Frame& frame, const dsl::Pass& pass) {
 
 template <class Rows, class Equal>
 bool includes(const Rows& all, const Rows& some, Equal equal) {
-  return std::all_of(some.begin(), some.end(), [&](const auto& row) {
-    return std::any_of(all.begin(), all.end(), [&](const auto& other) { return equal(row, other); });
-  });
+  return std::all_of(some.begin(), some.end(),
+                     [&](const auto& row) { return std::any_of(all.begin(), all.end(), [&](const auto& other) { return equal(row, other); }); });
 }
 
 // Whenever `later` runs, `first` does.
@@ -88,7 +87,8 @@ class Finder {
     if (!attachments_.contains(leader)) remember(leader, leader);
     const std::string obstacle = obstacle_to(leader, pass);
     if (!obstacle.empty()) {
-      note(pass, "not merged", fmt::format("a rendering of its own, though its attachments are those of `{}`: {}", name(members_[leader].back()), obstacle));
+      note(pass, "not merged",
+           fmt::format("a rendering of its own, though its attachments are those of `{}`: {}", name(members_[leader].back()), obstacle));
       row->second = pass;
       return;
     }
@@ -218,9 +218,10 @@ class Finder {
       if (!std::binary_search(kept.begin(), kept.end(), link)) {
         const uint32_t leader = result_.leader_of[link];
         note(link, "not merged",
-             fmt::format("a rendering of its own, though its attachments are those of `{}`: together their other resources would be live at once, which "
-                         "takes more memory; `no alias` resources do not count",
-                         name(leader)));
+             fmt::format(
+                 "a rendering of its own, though its attachments are those of `{}`: together their other resources would be live at once, which "
+                 "takes more memory; `no alias` resources do not count",
+                 name(leader)));
       }
     result_.leader_of = leaders_with(kept);
   }
@@ -286,14 +287,14 @@ class Finder {
   const Frame& frame_;
   const PlanOptions& options_;
   const std::vector<bool>& live_;
-  const std::vector<uint32_t>& apart_;  // passes that continue nothing
+  const std::vector<uint32_t>& apart_;                  // passes that continue nothing
   std::vector<std::vector<const Dependency*>> before_;  // by pass
   Renderings result_;
-  std::vector<std::vector<uint32_t>> members_;  // by leader, ascending
-  std::map<Key, uint32_t> last_;                // leader of the last rendering with these attachments
-  std::vector<uint32_t> links_;                 // passes that continue a rendering
+  std::vector<std::vector<uint32_t>> members_;                              // by leader, ascending
+  std::map<Key, uint32_t> last_;                                            // leader of the last rendering with these attachments
+  std::vector<uint32_t> links_;                                             // passes that continue a rendering
   std::map<uint32_t, std::multimap<uint32_t, AttachmentUse>> attachments_;  // by leader and cell: one of each kind
-  std::vector<uint32_t> seen_from_;                                        // by pass: the last search that came by
+  std::vector<uint32_t> seen_from_;                                         // by pass: the last search that came by
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 // which rasterization order keeps (Vulkan, "Rasterization Order"). Only the first clears, only the last resolves, and none runs where the first is
 // skipped. Every dependency path between two of them stays inside. A pass that only reads depth uses it in the layout of those that write it.
 //
-// Merging costs no memory: a merge after which program order, cut greedily, would need more bytes is not made. Other orders are tried with and without
-// those that stand where the most is live, see plan_frame.cpp.
+// Merging costs no memory: a merge after which program order, cut greedily, would need more bytes is not made. Other orders are tried with and
+// without those that stand where the most is live, see plan_frame.cpp.
 #pragma once
 
 #include <cstdint>
@@ -34,8 +34,8 @@ struct Renderings {
 // Every pass for itself.
 Renderings separate_renderings(const Frame& frame);
 
-// O(attachments + dependencies) log n, and for each pass with the attachments of an earlier one at most 4096 passes between them. Changes nothing; whoever
-// applies `layouts` builds the graph again and asks again. `apart`: passes that begin a rendering of their own, ascending.
+// O(attachments + dependencies) log n, and for each pass with the attachments of an earlier one at most 4096 passes between them. Changes nothing;
+// whoever applies `layouts` builds the graph again and asks again. `apart`: passes that begin a rendering of their own, ascending.
 Renderings find_renderings(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const PlanOptions& options,
                            const std::vector<uint32_t>& apart = {});
 

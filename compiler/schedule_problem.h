@@ -16,8 +16,8 @@ struct ScheduleProblem {
   std::vector<std::vector<uint32_t>> passes;  // by node, ascending
 };
 
-// Passes of `options.no_reorder` keep their place: what the program has before them runs before or beside them, what it has after them after or beside them.
-// Nodes are numbered in a legal order, those of earlier passes first. Pre-condition: dependencies between renderings have no cycle.
+// Passes of `options.no_reorder` keep their place: what the program has before them runs before or beside them, what it has after them after or
+// beside them. Nodes are numbered in a legal order, those of earlier passes first. Pre-condition: dependencies between renderings have no cycle.
 // O((uses + dependencies) log).
 ScheduleProblem make_problem(const Frame& frame, const Graph& graph, const std::vector<bool>& live, const std::vector<uint32_t>& leader_of,
                              const PlanOptions& options);

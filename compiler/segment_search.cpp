@@ -175,7 +175,8 @@ std::vector<uint32_t> counts_to_try(uint32_t least, uint32_t nodes, Effort effor
   return counts;
 }
 
-// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; for the last effort up to three hundred times as many, and no more than a minute.
+// Moves in all: a few milliseconds for 40 nodes, about two seconds for 10,000; for the last effort up to three hundred times as many, and no more
+// than a minute.
 uint64_t total_evaluations(uint64_t nodes, Effort effort) {
   const uint64_t moves = nodes <= 400 ? 300 * nodes : nodes <= 1000 ? 120'000 + 30 * (nodes - 400) : 138'000 + 60 * (nodes - 1000);
   return effort == Effort::max ? moves * (nodes <= 400 ? 300 : nodes <= 2000 ? 100 : 40) : moves;
@@ -211,12 +212,13 @@ class Search {
     return found;
   }
 
-  // Most orders can be packed to their peak, tight ones often cannot, but some like them can: packs them, the most promising first, until none left can
-  // be better. Without effort the peak is believed.
+  // Most orders can be packed to their peak, tight ones often cannot, but some like them can: packs them, the most promising first, until none left
+  // can be better. Without effort the peak is believed.
   SegmentResult choose(const PackingEffort& packing) && {
     std::vector<const Tried*> by_score;
     for (const Tried& tried : tried_) by_score.push_back(&tried), result.frontier.push_back(tried.cost);
-    std::stable_sort(by_score.begin(), by_score.end(), [&](const Tried* a, const Tried* b) { return score(a->cost, prefer_) < score(b->cost, prefer_); });
+    std::stable_sort(by_score.begin(), by_score.end(),
+                     [&](const Tried* a, const Tried* b) { return score(a->cost, prefer_) < score(b->cost, prefer_); });
     double best = std::numeric_limits<double>::max();
     for (const Tried* tried : by_score) {
       if (score(tried->cost, prefer_) >= best) break;
@@ -245,7 +247,8 @@ class Search {
     const auto beats = [](const SegmentCost& a, const SegmentCost& b) { return a.segments <= b.segments && a.peak <= b.peak; };
     if (std::any_of(tried_.begin(), tried_.end(), [&](const Tried& other) { return beats(other.cost, cost); })) return;
     std::erase_if(tried_, [&](const Tried& other) { return beats(cost, other.cost); });
-    const auto place = std::lower_bound(tried_.begin(), tried_.end(), cost, [](const Tried& a, const SegmentCost& b) { return a.cost.segments < b.segments; });
+    const auto place =
+        std::lower_bound(tried_.begin(), tried_.end(), cost, [](const Tried& a, const SegmentCost& b) { return a.cost.segments < b.segments; });
     tried_.insert(place, {cost, segments()});
   }
 

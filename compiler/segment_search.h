@@ -4,10 +4,10 @@
 //   soft edges   before not later than after
 //   items        weigh `bytes` in every segment from their first to their last user
 //
-// Source of the method: list scheduling with slack (as soon, as late as possible) and simulated annealing on segment numbers (Kirkpatrick et al. 1983),
-// first with a high power of each segment's live bytes as the energy, a smooth stand-in for their maximum, then with what lies above a target that falls
-// whenever it is met. Moves that break an edge push the neighbours along; in the second part boundaries move from where nothing needs them to where
-// the target is missed.
+// Source of the method: list scheduling with slack (as soon, as late as possible) and simulated annealing on segment numbers (Kirkpatrick et al.
+// 1983), first with a high power of each segment's live bytes as the energy, a smooth stand-in for their maximum, then with what lies above a target
+// that falls whenever it is met. Moves that break an edge push the neighbours along; in the second part boundaries move from where nothing needs them
+// to where the target is missed.
 #pragma once
 
 #include <cstdint>
@@ -38,9 +38,9 @@ struct SegmentCost {
   uint64_t peak = 0;
 };
 SegmentCost cost_of(const SegmentProblem& problem, const Segments& segments);
-// Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 3: a group costs microseconds of a frame of milliseconds, the heap
-// is kept all the time, so a hundredth of it is worth three hundredths of the groups; memory takes the 8th power of bytes, barriers and time the 4th of
-// segments. 64 KiB are added, so that nothing is done for less.
+// Less is better. A product of powers needs no unit. The balance is segments * bytes ^ 3: a group costs microseconds of a frame of milliseconds, the
+// heap is kept all the time, so a hundredth of it is worth three hundredths of the groups; memory takes the 8th power of bytes, barriers and time the
+// 4th of segments. 64 KiB are added, so that nothing is done for less.
 double score(const SegmentCost& cost, Prefer prefer);
 
 // Nodes in their order, a new segment wherever one depends on the current.
@@ -53,8 +53,10 @@ Segments latest_segments(const SegmentProblem& problem, uint32_t count);
 // In proportion to program order, so that what is written together stays together. Same pre-condition.
 Segments spread_segments(const SegmentProblem& problem, uint32_t count);
 
-// The least peak found from `start` within `evaluations` moves, using at most `count` segments. `warm`: `start` is good but for boundaries not yet used.
-Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed, bool warm = false);
+// The least peak found from `start` within `evaluations` moves, using at most `count` segments. `warm`: `start` is good but for boundaries not yet
+// used.
+Segments anneal_segments(const SegmentProblem& problem, const Segments& start, uint32_t count, uint64_t evaluations, uint64_t seed,
+                         bool warm = false);
 // Another order within the peak of `start` and its number of segments, as far away as moves at random lead.
 Segments drift_segments(const SegmentProblem& problem, const Segments& start, uint64_t evaluations, uint64_t seed);
 
@@ -72,7 +74,8 @@ struct SegmentResult {
   const char* method = "";            // "program order", "list scheduling" or "annealing"
   double score = 0;                   // of the best, packed; see below
 };
-// All of the above: program order and the searched ones, the best by score once packed. `fast` tries constructed ones only, `max` anneals much longer.
+// All of the above: program order and the searched ones, the best by score once packed. `fast` tries constructed ones only, `max` anneals much
+// longer.
 SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Prefer prefer);
 
 }  // namespace rg::compiler

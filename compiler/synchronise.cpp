@@ -162,7 +162,8 @@ class Synchroniser {
   // The oldest copy of a history becomes the current one, and nobody needs what is in it.
   bool is_dead_at_entry(const Line& line) const {
     const Epoch& first = line.epochs.front();
-    return may_discard(options_, frame_.resource_of(line.cell)) && first.age == 0 && !first.needs && frame_.grids[frame_.cells[line.cell].resource].ages > 1;
+    return may_discard(options_, frame_.resource_of(line.cell)) && first.age == 0 && !first.needs &&
+           frame_.grids[frame_.cells[line.cell].resource].ages > 1;
   }
 
   // At each age's exit the last epoch so far with all reads it continues; that is the state at the entry of the next age.

@@ -9,9 +9,11 @@ namespace {
 
 // Columns: aliasing, async, reorder, merge, discard, fold. Rows with a driver have a public report as their source, named in docs/planner.md.
 constexpr Workaround kWorkarounds[] = {
-    {"foreign-texels", "any", "a transient shows what another resource left, though the checker proves the plan", true, false, false, false, false, false},
+    {"foreign-texels", "any", "a transient shows what another resource left, though the checker proves the plan", true, false, false, false, false,
+     false},
     {"lost-tiles", "any", "later passes of a rendering miss what earlier ones drew", false, false, false, true, false, false},
-    {"stale-compression", "any", "blocks of old contents after a discard, where compression data is not reset", false, false, false, false, true, false},
+    {"stale-compression", "any", "blocks of old contents after a discard, where compression data is not reset", false, false, false, false, true,
+     false},
     {"hung-queue", "any", "device lost, or a frame that never ends, with several queues only", false, true, false, false, false, false},
     {"radv-2023-async", "MESA_RADV of early 2023", "the machine hangs in asynchronous compute", false, true, false, false, false, false},
     {"conservative", "any", "to find out whether it is the plan at all: everything at once", true, true, true, true, true, true},

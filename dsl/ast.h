@@ -170,9 +170,9 @@ struct ResourceDeclaration {
   bool is_buffer = false;
   Name name;
   std::vector<Expr> index;  // `image pyramid[i]`, one for each pair of brackets
-  Name format;        // images
-  Boxed<Expr> size;   // images
-  TypeName element;   // buffers
+  Name format;              // images
+  Boxed<Expr> size;         // images
+  TypeName element;         // buffers
   std::vector<Setting> settings;
   Boxed<Expr> clear;  // of `init clear V`
   bool has_init = false;

@@ -95,7 +95,8 @@ Role default_role(const Builder& at) {
 
 void report_unknown_role(Builder& at, const ast::Name& word) {
   Diagnostic diagnostic(DiagnosticKind::UnknownRole, word.span, {std::string(word.text)});
-  const Guess guess = closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "element"});
+  const Guess guess =
+      closest(word.text, {"sampled", "storage", "uniform", "vertex", "index", "indirect", "input", "copy_src", "copy_dst", "element"});
   suggest(diagnostic, word.span, guess);
   at.checker.diagnostics.report(std::move(diagnostic));
   at.ok = false;

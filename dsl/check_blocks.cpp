@@ -120,9 +120,7 @@ bool check_elements(const Rules& at) {
 // The kernel has to know where its domain ends: from an image of that size, or because the size is constant.
 bool knows_domain(const Rules& at) {
   const auto constant = [&](ExprId id) { return at.checker.program.exprs[id].op == ExprOp::constant; };
-  const auto image = [&](const Access& access) {
-    return access.element && at.scope.graph.resources[access.resource].kind == ResourceKind::image;
-  };
+  const auto image = [&](const Access& access) { return access.element && at.scope.graph.resources[access.resource].kind == ResourceKind::image; };
   const auto& accesses = at.pass.accesses;
   return std::all_of(at.pass.dispatch.size, at.pass.dispatch.size + 3, constant) || std::any_of(accesses.begin(), accesses.end(), image);
 }
@@ -140,8 +138,10 @@ bool check_shape(const Rules& at, Span dispatch) {
   if (block.scan != kAll && block.scan >= block.axes)
     return refuse_block(at, shader, std::string("it walks along ") + "xyz"[block.scan] + ", an axis that its size does not have");
   const bool across = block.scan != kAll && !block.associative && at.pass.dispatch.group[block.scan] != 1;
-  if (across) return refuse_block(at, shader, std::string("a group walks one element at a time along ") + "xyz"[block.scan] + " unless `associative`");
-  if (!knows_domain(at)) return refuse_block(at, dispatch, "where its elements end is known from an image `as element`, or because the size is constant");
+  if (across)
+    return refuse_block(at, shader, std::string("a group walks one element at a time along ") + "xyz"[block.scan] + " unless `associative`");
+  if (!knows_domain(at))
+    return refuse_block(at, dispatch, "where its elements end is known from an image `as element`, or because the size is constant");
   return true;
 }
 

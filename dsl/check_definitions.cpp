@@ -293,8 +293,7 @@ void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& 
     return;
   }
   if (!missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});
-  if (const Pass* later = find_later_writer(walk, pass + 1, access))
-    diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
+  if (const Pass* later = find_later_writer(walk, pass + 1, access)) diagnostic.note(DiagnosticKind::WrittenLater, later->span, {later->name});
   diagnostic.note(DiagnosticKind::DeclaredHere, resource.span, {resource.name});
 }
 
@@ -364,7 +363,8 @@ std::vector<MipLimit> effective_limits(const Walk& walk, const Pass& pass) {
   std::vector<MipLimit> limits = pass.mip_limits;
   std::erase_if(limits, [&](const MipLimit& limit) {
     const Resource& image = walk.graph.resources[limit.image];
-    return is_known(walk, image.width) && (!image.height.valid() || is_known(walk, image.height)) && (!image.depth.valid() || is_known(walk, image.depth));
+    return is_known(walk, image.width) && (!image.height.valid() || is_known(walk, image.height)) &&
+           (!image.depth.valid() || is_known(walk, image.depth));
   });
   return limits;
 }

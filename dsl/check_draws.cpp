@@ -37,7 +37,8 @@ bool bind_vertices(const Draws& at) {
   const std::vector<uint32_t> buffers = accesses_as(at.pass, Role::vertex);
   std::vector<VertexInput>& inputs = at.pass.draw.vertex;
   if (buffers.size() != inputs.size()) {
-    at.checker.report(DiagnosticKind::VertexBuffers, at.span, {at.pass.name, counted(inputs.size(), "vertex struct"), counted(buffers.size(), "buffer")});
+    at.checker.report(DiagnosticKind::VertexBuffers, at.span,
+                      {at.pass.name, counted(inputs.size(), "vertex struct"), counted(buffers.size(), "buffer")});
     return false;
   }
   for (size_t i = 0; i < inputs.size(); ++i) {

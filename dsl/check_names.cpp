@@ -17,9 +17,9 @@ Named named(SymbolKind kind, const Node& node) {
 }
 
 Named name_of(const ast::Declaration& declaration) {
-  constexpr SymbolKind kKinds[] = {SymbolKind::constant, SymbolKind::extent,  SymbolKind::structure, SymbolKind::interface, SymbolKind::sampler,
-                                   SymbolKind::state,    SymbolKind::feature, SymbolKind::condition, SymbolKind::set,       SymbolKind::graph,
-                                   SymbolKind::spectrum};
+  constexpr SymbolKind kKinds[] = {SymbolKind::constant, SymbolKind::extent, SymbolKind::structure, SymbolKind::interface,
+                                   SymbolKind::sampler,  SymbolKind::state,  SymbolKind::feature,   SymbolKind::condition,
+                                   SymbolKind::set,      SymbolKind::graph,  SymbolKind::spectrum};
   Named result = std::visit([&](const auto& node) { return named(kKinds[declaration.index()], node); }, declaration);
   const auto* graph = std::get_if<ast::GraphDeclaration>(&declaration);
   if (graph && graph->is_technique) result.kind = SymbolKind::technique;
@@ -214,7 +214,7 @@ bool report_if_private(Checker& checker, uint32_t module, std::string_view name,
 }
 
 const char* describe(SymbolKind kind) {
-  constexpr const char* kNames[] = {"constant", "extent",    "struct", "interface", "sampler",  "state",
+  constexpr const char* kNames[] = {"constant", "extent",    "struct", "interface", "sampler",   "state",
                                     "feature",  "condition", "set",    "graph",     "technique", "spectrum"};
   return kNames[static_cast<size_t>(kind)];
 }

@@ -153,7 +153,8 @@ void check_image_use(const Rules& rules, const Access& access) {
 void check_imported_texels(const Rules& rules, const Access& access) {
   const Resource& buffer = rules.resource(access);
   if (buffer.kind != ResourceKind::buffer || buffer.format == Format::none || buffer.lifetime != Lifetime::imported) return;
-  rules.checker.report(DiagnosticKind::TexelFormat, access.span, {buffer.name, name(buffer.format), "shaders see what the engine brings through a copy"})
+  rules.checker
+      .report(DiagnosticKind::TexelFormat, access.span, {buffer.name, name(buffer.format), "shaders see what the engine brings through a copy"})
       .note(DiagnosticKind::DeclaredHere, buffer.span, {buffer.name});
 }
 
@@ -182,7 +183,8 @@ std::string size_text(const Rules& rules, const Access& access, const std::vecto
 uint32_t target_layers(const Rules& rules, const Access& access) {
   const Resource& image = rules.resource(access);
   if (image.dimension != Dimension::d3) return layer_count(image, access.range);
-  return is_slice(access) ? access.range.slices : static_cast<uint32_t>(side(rules, image.depth, access.range.mip, initial_extents(rules.checker.program)));
+  return is_slice(access) ? access.range.slices
+                          : static_cast<uint32_t>(side(rules, image.depth, access.range.mip, initial_extents(rules.checker.program)));
 }
 
 void compare_attachments(const Rules& rules, const Access& first, const Access& other) {
@@ -204,7 +206,8 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
 // Vulkan 1.3 promises six views; views of volumes are no arrays; other stages would need features of their own.
 const char* multiview_fault(const Rules& rules) {
   constexpr uint32_t kMostViews = 6;
-  const auto first = std::find_if(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return is_attachment(access.role); });
+  const auto first =
+      std::find_if(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return is_attachment(access.role); });
   if (first == rules.pass.accesses.end()) return "views are layers of attachments, and it has none";
   if (rules.resource(*first).dimension == Dimension::d3) return "slices of volumes are no views";
   if (layer_count(rules.resource(*first), first->range) > kMostViews) return "not every device has more than six";
@@ -238,7 +241,8 @@ void check_amount(const Rules& rules) {
   }
   const Draw& draw = rules.pass.draw;
   const char* vertices = draw.indexed ? " indices" : " vertices";
-  for (const auto& [count, what] : {std::pair(draw.vertices, vertices), {draw.instances, " instances"}, {draw.first, vertices}, {draw.offset, vertices}})
+  for (const auto& [count, what] :
+       {std::pair(draw.vertices, vertices), {draw.instances, " instances"}, {draw.first, vertices}, {draw.offset, vertices}})
     if (greatest(rules, count) > kMostVertices) return report("draws " + std::to_string(greatest(rules, count)) + what, kMostVertices);
 }
 
@@ -257,7 +261,8 @@ void check_capabilities(const Rules& rules, const State& state) {
   };
   for (const auto& [capability, name] : kNames) {
     if (!asks(state, capability) || has_feature_of(rules, capability)) continue;
-    const std::string way_out = std::string("declare `feature NAME : device ") + name + "` and name it in `features` of the pass: where a device has none, the pass draws without";
+    const std::string way_out = std::string("declare `feature NAME : device ") + name +
+                                "` and name it in `features` of the pass: where a device has none, the pass draws without";
     rules.checker.report(DiagnosticKind::BeyondProfile, rules.pass.span, {"state `" + state.name + "`", name, "vulkan 1.3", way_out})
         .note(DiagnosticKind::DeclaredHere, state.span, {state.name});
   }
@@ -271,7 +276,8 @@ std::string unfit(const Rules& rules, const State& state) {
   const auto none = rules.pass.accesses.end();
   const bool depth = attachment_of(Role::depth) != none || attachment_of(Role::depth_readonly) != none;
   if (state.depth_bounds && !depth) return "its bounds are of a depth attachment, which the pass has not";
-  if (state.conservative && state.topology != Topology::triangles && state.topology != Topology::triangle_strip) return "only triangles are rasterised conservatively";
+  if (state.conservative && state.topology != Topology::triangles && state.topology != Topology::triangle_strip)
+    return "only triangles are rasterised conservatively";
   if (state.sample_locations.empty()) return {};
   if (depth) return "it places samples, and depth is kept for the device's own";
   const auto color = attachment_of(Role::color);
@@ -285,10 +291,13 @@ void check_state(const Rules& rules) {
   const State& state = rules.checker.program.states[rules.pass.state];
   check_capabilities(rules, state);
   if (const std::string why = unfit(rules, state); !why.empty())
-    rules.checker.report(DiagnosticKind::StateUnfit, rules.pass.span, {state.name, rules.pass.name, why}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});
-  const bool has = std::any_of(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return access.role == Role::stencil; });
+    rules.checker.report(DiagnosticKind::StateUnfit, rules.pass.span, {state.name, rules.pass.name, why})
+        .note(DiagnosticKind::DeclaredHere, state.span, {state.name});
+  const bool has =
+      std::any_of(rules.pass.accesses.begin(), rules.pass.accesses.end(), [](const Access& access) { return access.role == Role::stencil; });
   if (state.stencil_test && !has)
-    rules.checker.report(DiagnosticKind::StencilMissing, rules.pass.span, {rules.pass.name, state.name}).note(DiagnosticKind::DeclaredHere, state.span, {state.name});
+    rules.checker.report(DiagnosticKind::StencilMissing, rules.pass.span, {rules.pass.name, state.name})
+        .note(DiagnosticKind::DeclaredHere, state.span, {state.name});
 }
 
 void check_attachments(const Rules& rules) {

@@ -161,8 +161,8 @@ void read_indirect_draw(Builder& at, const ast::DrawStatement& node) {
 
 void read_per_draw(Builder& at, const ast::PerDraw& node) {
   constexpr uint32_t kMaxPushBytes = 128;  // what every Vulkan device has
-  const StructId type = node.declaration ? struct_in_place(at.checker, at.scope.module, *node.declaration)
-                                         : find_struct(at.checker, at.scope.module, *node.type);
+  const StructId type =
+      node.declaration ? struct_in_place(at.checker, at.scope.module, *node.declaration) : find_struct(at.checker, at.scope.module, *node.type);
   const Span span = node.type ? node.type->span : node.name.span;
   if (!type.valid() || !check_not_packed(at.checker, type, span)) return void(at.out.dropped = true);
   const Struct& record = at.checker.program.structs[type];
@@ -206,12 +206,12 @@ void visit(Builder& at, const ast::ParamsStatement& node) {
     const StructId type = find_struct(at.checker, at.scope.module, *node.type);
     if (!type.valid() || !check_not_packed(at.checker, type, node.type->span)) return void(at.out.dropped = true);
     const ParamsId own = at.scope.graph.params.add({name, type, PassId{at.scope.graph.passes.size()}, node.span});
-    at.out.pass.params.push_back({name, own, node.span});
-    return;
+    return at.out.pass.params.push_back({name, own, node.span});
   }
   const auto bound =
       std::find_if(at.scope.bindings.rbegin(), at.scope.bindings.rend(), [&](const Binding& binding) { return binding.name == node.name.text; });
-  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params) return at.out.pass.params.push_back({name, bound->params, node.span});
+  if (bound != at.scope.bindings.rend() && bound->kind == Binding::Kind::params)
+    return at.out.pass.params.push_back({name, bound->params, node.span});
   const auto found = at.scope.params.find(name);
   if (found != at.scope.params.end()) return at.out.pass.params.push_back({name, found->second, node.span});
   if (at.scope.failed.count(name) || at.checker.lost_names) return void(at.out.dropped = true);
@@ -281,7 +281,8 @@ void read_bundle(Builder& at, const ast::Expr& value) {
   if (at.open.size() >= kMaxDepth) return fail(at, DiagnosticKind::NestingTooDeep, value.span, {std::to_string(kMaxDepth)});
   if (at.bundled > kMaxStatements) return void(at.out.dropped = true);  // reported
   at.bundled += std::max<size_t>(bundle->statements.size(), 1);
-  if (at.bundled > kMaxStatements) return fail(at, DiagnosticKind::BundlesTooLong, at.node.name.span, {at.out.pass.name, std::to_string(kMaxStatements)});
+  if (at.bundled > kMaxStatements)
+    return fail(at, DiagnosticKind::BundlesTooLong, at.node.name.span, {at.out.pass.name, std::to_string(kMaxStatements)});
   at.out.dropped |= bundle->has_error;
   at.open.push_back(bundle);
   const size_t told = at.checker.diagnostics.rows().size();

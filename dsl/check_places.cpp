@@ -301,9 +301,8 @@ struct Part {
   size_t arguments;
   bool of_images;
 };
-constexpr Part kParts[] = {{"mip", 1, true},   {"mips", 2, true},   {"layer", 1, true}, {"layers", 2, true},
-                           {"prev", 1, false}, {"bytes", 2, false}, {"view", 1, true},
-                           {"slice", 1, true}, {"slices", 2, true}};
+constexpr Part kParts[] = {{"mip", 1, true},    {"mips", 2, true}, {"layer", 1, true}, {"layers", 2, true}, {"prev", 1, false},
+                           {"bytes", 2, false}, {"view", 1, true}, {"slice", 1, true}, {"slices", 2, true}};
 
 Place called_place(Walk walk, const Expr& call) {
   const Expr& callee = call.operands[0];
@@ -313,7 +312,8 @@ Place called_place(Walk walk, const Expr& call) {
   Place place = find_place(walk.checker, walk.scope, callee.operands[0]);
   if (!place.ok()) return place;
   if (call.operands.size() - 1 != part->arguments)
-    return fail(walk, DiagnosticKind::WrongArgumentCount, call.span, {std::string(part->name), std::to_string(call.operands.size() - 1), counted(part->arguments, "argument")});
+    return fail(walk, DiagnosticKind::WrongArgumentCount, call.span,
+                {std::string(part->name), std::to_string(call.operands.size() - 1), counted(part->arguments, "argument")});
   place.span = call.span;
   const Resource& resource = walk.scope.graph.resources[place.resource];
   const bool is_image = resource.kind == ResourceKind::image;

@@ -165,7 +165,8 @@ void set_dimension(Builder& at, uint8_t axes) {
 // `64*64`, which is a number and so one axis: said aloud by `1d`, else likely a slip of `64x64`.
 void check_product(Builder& at) {
   const ast::Expr& size = *at.node.size;
-  const bool product = size.kind == ast::ExprKind::mul && size.operands[0].kind == ast::ExprKind::integer && size.operands[1].kind == ast::ExprKind::integer;
+  const bool product =
+      size.kind == ast::ExprKind::mul && size.operands[0].kind == ast::ExprKind::integer && size.operands[1].kind == ast::ExprKind::integer;
   const bool said = std::any_of(at.node.settings.begin(), at.node.settings.end(), [](const ast::Setting& each) { return each.word.text == "1d"; });
   if (!product || said) return;
   const std::string two = std::string(size.operands[0].text) + "x" + std::string(size.operands[1].text);

@@ -86,7 +86,8 @@ std::string kind_fault(const Resource& resource) {
 }
 
 std::string state_fault(const Resource& resource, const BoundaryState& state) {
-  if (state.role == Role::undefined && state.wrote) return "what was written was written somehow; leave the state out if the contents are worth nothing";
+  if (state.role == Role::undefined && state.wrote)
+    return "what was written was written somehow; leave the state out if the contents are worth nothing";
   if (!suits_kind(resource, state.role)) return kind_fault(resource);
   if (resource.kind == ResourceKind::image)
     if (std::string fault = format_fault(resource, state.role); !fault.empty()) return fault;

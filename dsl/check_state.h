@@ -130,15 +130,15 @@ struct GraphScope {
   std::vector<Binding> bindings;  // innermost last
   Guard guard;
   std::vector<ConditionId> conditions;
-  FusionId fusion;                // the `fuse` around
+  FusionId fusion;  // the `fuse` around
   std::unordered_map<std::string, ResourceId> resources;
   std::unordered_map<std::string, PassId> passes;
   std::unordered_map<std::string, ParamsId> params;
-  std::unordered_map<std::string, bool> families;        // names declared with an index: `pyramid` of `pyramid[2]`
-  std::unordered_map<std::string, bool> instances;       // of techniques, named with an index
+  std::unordered_map<std::string, bool> families;   // names declared with an index: `pyramid` of `pyramid[2]`
+  std::unordered_map<std::string, bool> instances;  // of techniques, named with an index
   std::unordered_map<std::string, const ast::BundleDeclaration*> bundles;
-  std::unordered_map<std::string, Span> uses;  // instance -> where it is used
-  std::set<const ast::Use*> repeated_uses;     // of a name that is taken: reported, and passed over
+  std::unordered_map<std::string, Span> uses;            // instance -> where it is used
+  std::set<const ast::Use*> repeated_uses;               // of a name that is taken: reported, and passed over
   std::unordered_map<std::string, bool> failed;          // declared, but wrong: stay silent about them
   std::unordered_map<std::string, uint32_t> interfaces;  // parameter -> symbol
   std::vector<bool> resource_used;
@@ -159,7 +159,7 @@ std::optional<uint32_t> peek_symbol(const Checker& checker, uint32_t module, con
 // Whether a module that `module` sees keeps the name to itself; reports it.
 bool report_if_private(Checker& checker, uint32_t module, std::string_view name, Span span);
 std::string spelled(const ast::Expr& expr);
-std::string with_article(std::string_view noun);  // "an image"
+std::string with_article(std::string_view noun);      // "an image"
 std::string counted(size_t count, const char* noun);  // "1 argument", "2 arguments"
 // Reports a repeated name with a note at the first.
 void report_duplicate(Checker& checker, const ast::Name& name, Span first);
@@ -257,7 +257,8 @@ void finish_fusion(Checker& checker, const GraphScope& scope, FusionId fusion);
 void add_host_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::HostTransfer& statement);
 void merge_reads_and_writes(Pass& pass);
 // ---- check_draws.cpp
-// Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a report.
+// Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a
+// report.
 bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
 void name_hidden_accesses(Pass& pass);
 bool is_shader_role(Role role);

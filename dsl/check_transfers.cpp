@@ -70,8 +70,9 @@ bool source_covers(Checker& checker, const GraphScope& scope, const TransferWord
   for (const auto& extents : {initial_extents(checker.program), maximum_extents(checker.program)}) {
     const auto has = blocks_of(checker, from, src.range, extents), wants = blocks_of(checker, to, dst.range, extents);
     if (std::equal(wants.begin(), wants.end(), has.begin(), std::less_equal<>())) continue;
-    checker.report(DiagnosticKind::CopyTooSmall, span, {from.name, size_text(checker, from, src.range, extents), to.name, size_text(checker, to, dst.range, extents),
-                                                        word.kind == TransferKind::copy ? "`blit` scales" : "a resolve keeps the size"});
+    checker.report(DiagnosticKind::CopyTooSmall, span,
+                   {from.name, size_text(checker, from, src.range, extents), to.name, size_text(checker, to, dst.range, extents),
+                    word.kind == TransferKind::copy ? "`blit` scales" : "a resolve keeps the size"});
     return false;
   }
   return true;
@@ -98,7 +99,8 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
   }
   const bool both_images = is_image(scope, src) && is_image(scope, dst);
   if (word.kind != TransferKind::copy || !both_images) return kinds_fit(checker, scope, word, src, span);
-  if (info(from.format).block_bytes == info(to.format).block_bytes && from.samples == to.samples) return source_covers(checker, scope, word, src, dst, span);
+  if (info(from.format).block_bytes == info(to.format).block_bytes && from.samples == to.samples)
+    return source_covers(checker, scope, word, src, dst, span);
   checker.report(DiagnosticKind::CopyFormats, span, {from.name, name(from.format), to.name, name(to.format)});
   return false;
 }
@@ -106,8 +108,9 @@ bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& 
 // In a raster pass the source is the attachment itself.
 std::optional<uint32_t> find_attachment(Checker& checker, const GraphScope& scope, const PassScope& out, const Place& src) {
   const auto& accesses = out.pass.accesses;
-  const auto at = std::find_if(accesses.begin(), accesses.end(),
-                               [&](const Access& access) { return access.resource == src.resource && (access.role == Role::color || access.role == Role::depth); });
+  const auto at = std::find_if(accesses.begin(), accesses.end(), [&](const Access& access) {
+    return access.resource == src.resource && (access.role == Role::color || access.role == Role::depth);
+  });
   if (at != accesses.end()) return static_cast<uint32_t>(at - accesses.begin());
   checker.report(DiagnosticKind::ResolveOfOther, src.span, {scope.graph.resources[src.resource].name, out.pass.name});
   return std::nullopt;
@@ -125,7 +128,8 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
 }
 
 // vkCmdResolveImage knows no other aspect (VUID-VkImageResolve-aspectMask-00266).
-bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst, Span span) {
+bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst,
+                     Span span) {
   const Resource& from = scope.graph.resources[src.resource];
   if (word.kind != TransferKind::resolve || out.pass.kind != PassKind::transfer || info(from.format).is_color()) return true;
   checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), scope.graph.resources[dst.resource].name});
@@ -159,7 +163,8 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
   if (!dst.ok() || (node.src && !src.ok())) return drop(scope, out);
   if (!kinds_fit(checker, scope, *word, dst, node.span)) return drop(scope, out);
   if (node.src) {
-    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_colour(checker, scope, out, *word, src, dst, node.span)) return drop(scope, out);
+    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_colour(checker, scope, out, *word, src, dst, node.span))
+      return drop(scope, out);
     const auto from = add_source(checker, scope, out, *word, src);
     if (!from) return drop(scope, out);
     transfer.src = *from;

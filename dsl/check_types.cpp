@@ -30,11 +30,10 @@ const NamedType* find_type(std::string_view name) {
 // As other languages call them; only what means the same.
 std::string_view type_elsewhere(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> kNames[] = {
-      {"float", "f32"},    {"int", "i32"},      {"uint", "u32"},     {"unsigned", "u32"}, {"int32_t", "i32"}, {"uint32_t", "u32"},
-      {"float2", "vec2"},  {"float3", "vec3"},  {"float4", "vec4"},  {"int2", "ivec2"},   {"int3", "ivec3"},  {"int4", "ivec4"},
-      {"uint2", "uvec2"},  {"uint3", "uvec3"},  {"uint4", "uvec4"},  {"vec2f", "vec2"},   {"vec3f", "vec3"},  {"vec4f", "vec4"},
-      {"vec2i", "ivec2"},  {"vec3i", "ivec3"},  {"vec4i", "ivec4"},  {"vec2u", "uvec2"},  {"vec3u", "uvec3"}, {"vec4u", "uvec4"},
-      {"mat3x3", "mat3"},  {"mat4x4", "mat4"},
+      {"float", "f32"},   {"int", "i32"},     {"uint", "u32"},    {"unsigned", "u32"}, {"int32_t", "i32"}, {"uint32_t", "u32"}, {"float2", "vec2"},
+      {"float3", "vec3"}, {"float4", "vec4"}, {"int2", "ivec2"},  {"int3", "ivec3"},   {"int4", "ivec4"},  {"uint2", "uvec2"},  {"uint3", "uvec3"},
+      {"uint4", "uvec4"}, {"vec2f", "vec2"},  {"vec3f", "vec3"},  {"vec4f", "vec4"},   {"vec2i", "ivec2"}, {"vec3i", "ivec3"},  {"vec4i", "ivec4"},
+      {"vec2u", "uvec2"}, {"vec3u", "uvec3"}, {"vec4u", "uvec4"}, {"mat3x3", "mat3"},  {"mat4x4", "mat4"},
   };
   const auto* at = std::find_if(std::begin(kNames), std::end(kNames), [&](const auto& row) { return row.first == name; });
   return at == std::end(kNames) ? std::string_view() : at->second;

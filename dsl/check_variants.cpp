@@ -38,7 +38,8 @@ void read_profile(Checker& checker, uint32_t module, const ast::SpectrumDeclarat
   const auto path = join_inside(checker.modules[module].folder, node.profile);
   if (path) spectrum.profile = *path;
   if (!path)
-    checker.report(DiagnosticKind::SpectrumProfileNotReadable, node.profile_span, {std::string(node.profile), "it is outside the folder of the root file"});
+    checker.report(DiagnosticKind::SpectrumProfileNotReadable, node.profile_span,
+                   {std::string(node.profile), "it is outside the folder of the root file"});
 }
 
 Spectrum read_spectrum(Checker& checker, uint32_t module, const ast::SpectrumDeclaration& node) {

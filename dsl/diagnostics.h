@@ -68,8 +68,8 @@ class Diagnostics {
   bool has_errors() const;  // warnings that are denied are errors
   const std::vector<Diagnostic>& rows() const { return rows_; }
   std::vector<Allowance> useless() const;  // those that no warning needs
-  void sort();          // by file, place, code; drops exact repeats
-  void drop_repeats();  // keeps the first of each kind at each place
+  void sort();                             // by file, place, code; drops exact repeats
+  void drop_repeats();                     // keeps the first of each kind at each place
 
  private:
   void judge(Diagnostic& diagnostic) const;
@@ -78,14 +78,15 @@ class Diagnostics {
   WarningPolicy policy_;
 };
 
-// At most `most` errors and as many others, in their order; behind them, where some are missing, a note that says how many. What is allowed is for programs.
+// At most `most` errors and as many others, in their order; behind them, where some are missing, a note that says how many. What is allowed is for
+// programs.
 std::vector<Diagnostic> first_of(const Diagnostics& diagnostics, size_t most, bool with_allowed);
 constexpr size_t kMostForPeople = 100, kMostForPrograms = 1000;
 
 // Text with snippet, caret and notes; colour by ANSI codes where wanted. At most kMostForPeople errors; nothing that is allowed.
 std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool colour);
-// The documented JSON form, first_of(diagnostics, kMostForPrograms): an array of {code, name, severity, message, file, line, column, end_line, end_column, notes, fixes},
-// with `suppressions` where a warning is allowed.
+// The documented JSON form, first_of(diagnostics, kMostForPrograms): an array of {code, name, severity, message, file, line, column, end_line,
+// end_column, notes, fixes}, with `suppressions` where a warning is allowed.
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files);
 // SARIF 2.1.0 (OASIS) of as many, one run: rules are the codes that occur, notes with a place are related locations. Columns count bytes from 1.
 std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files);

@@ -80,8 +80,10 @@ nlohmann::ordered_json place(const SourceFiles& files, Span span) {
 
 nlohmann::ordered_json to_json(const SourceFiles& files, const Diagnostic& diagnostic) {
   const DiagnosticRow& info = row(diagnostic.kind);
-  nlohmann::ordered_json json = {
-      {"code", info.code}, {"name", info.name}, {"severity", kSeverityNames[static_cast<size_t>(diagnostic.severity())]}, {"message", diagnostic.message()}};
+  nlohmann::ordered_json json = {{"code", info.code},
+                                 {"name", info.name},
+                                 {"severity", kSeverityNames[static_cast<size_t>(diagnostic.severity())]},
+                                 {"message", diagnostic.message()}};
   json.update(place(files, diagnostic.span));
   json["notes"] = nlohmann::ordered_json::array();
   for (const Diagnostic& child : diagnostic.notes) json["notes"].push_back(to_json(files, child));

@@ -13,7 +13,7 @@ struct Writer {
   const SourceFiles& files;
   Json rules = Json::array();
   std::map<std::string_view, size_t> rule_index;  // by code
-  bool suppresses = false;  // some result is: then each has to say
+  bool suppresses = false;                        // some result is: then each has to say
 };
 
 bool has_place(const SourceFiles& files, Span span) { return span.file.valid() && span.file.value < files.size(); }

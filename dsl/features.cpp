@@ -72,10 +72,14 @@ bool allowed(const Table<FeatureId, Feature>& features, const FeatureValues& val
 
 bool asks(const State& state, Capability capability) {
   switch (capability) {
-    case Capability::depth_bounds: return state.depth_bounds;
-    case Capability::conservative_rasterization: return state.conservative;
-    case Capability::sample_locations: return !state.sample_locations.empty();
-    default: return false;
+    case Capability::depth_bounds:
+      return state.depth_bounds;
+    case Capability::conservative_rasterization:
+      return state.conservative;
+    case Capability::sample_locations:
+      return !state.sample_locations.empty();
+    default:
+      return false;
   }
 }
 

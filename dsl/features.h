@@ -13,7 +13,7 @@ using FeatureValues = std::vector<uint32_t>;   // one value a FeatureId, or kFre
 
 // True where no rule is broken, whatever the free features become.
 bool allowed(const Table<FeatureId, Feature>& features, const FeatureValues& values);
-bool asks(const State& state, Capability capability);        // whether the state says what only devices with the capability can
+bool asks(const State& state, Capability capability);         // whether the state says what only devices with the capability can
 bool holds(const Guard& guard, const FeatureValues& values);  // of decided features
 
 // Calls `visit` once for every assignment of the `open` features that some choice of all others completes without breaking a rule, in counting

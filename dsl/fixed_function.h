@@ -24,7 +24,16 @@ struct Sampler {
 };
 
 enum class BlendFactor : uint8_t {
-  zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color, one_minus_dst_color,
+  zero,
+  one,
+  src_alpha,
+  one_minus_src_alpha,
+  dst_alpha,
+  one_minus_dst_alpha,
+  src_color,
+  one_minus_src_color,
+  dst_color,
+  one_minus_dst_color,
 };
 enum class BlendOp : uint8_t { add, subtract, reverse_subtract, min, max };
 struct Blend {  // of one colour attachment; disabled unless declared on it

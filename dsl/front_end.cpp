@@ -106,7 +106,9 @@ void check_module_name(Loader& loader, const Module& module) {
 std::string why_not_allowed(std::optional<DiagnosticKind> kind) {
   if (!kind) return "no diagnostic has this code";
   const Severity severity = row(*kind).severity;
-  return severity == Severity::warning ? "" : severity == Severity::error ? "it is an error, and errors are mended" : "it is a note that goes with others";
+  return severity == Severity::warning ? ""
+         : severity == Severity::error ? "it is an error, and errors are mended"
+                                       : "it is a note that goes with others";
 }
 
 void take_allowances(const ast::File& tree, Diagnostics& diagnostics) {

@@ -14,8 +14,8 @@ namespace rg::dsl {
 using ReadSource = std::function<std::optional<std::string>(const std::string& path, std::string& why)>;
 
 struct FrontEndResult {
-  SourceFiles files;   // files[0] is the root
-  Program program;     // valid only if no error was reported
+  SourceFiles files;  // files[0] is the root
+  Program program;    // valid only if no error was reported
 };
 FrontEndResult load_program(const std::string& root_path, const ReadSource& read, Diagnostics& diagnostics);
 

@@ -111,7 +111,8 @@ uint32_t next_axis(const Lexer& lexer) {
 std::string meant_dimensions(const Lexer& lexer, std::string_view word) {
   std::string meant(word);
   for (char& c : meant) c = c == 'X' ? 'x' : c;
-  const bool numbers = std::all_of(meant.begin(), meant.end(), [](char c) { return is_digit(c) || c == 'x'; }) && meant.find("xx") == std::string::npos;
+  const bool numbers =
+      std::all_of(meant.begin(), meant.end(), [](char c) { return is_digit(c) || c == 'x'; }) && meant.find("xx") == std::string::npos;
   return numbers && (meant.back() != 'x' || next_axis(lexer) != 0) ? meant : "";
 }
 

@@ -11,10 +11,10 @@ using Words = std::initializer_list<std::string_view>;
 constexpr std::string_view kDeclarations[] = {"module",  "import", "target",  "private",   "const", "extent", "struct",    "interface",
                                               "sampler", "state",  "feature", "condition", "set",   "graph",  "technique", "spectrum"};
 constexpr std::string_view kItems[] = {"image", "buffer", "pass", "bundle", "for", "when", "if", "use", "fuse", "assert", "warn", "allow"};
-constexpr std::string_view kStatements[] = {"read",   "write",  "update", "atomic",   "color", "depth",  "stencil",   "resolve",
-                                            "params", "shader", "state",  "dispatch", "draw",  "bind",   "copy",      "blit",
-                                            "clear",  "fill",   "host",   "after",    "keep",  "fullscreen", "features", "spectrum",
-                                            "with",   "block",  "multiview", "allow"};
+constexpr std::string_view kStatements[] = {"read",       "write",    "update",   "atomic", "color",    "depth",     "stencil",
+                                            "resolve",    "params",   "shader",   "state",  "dispatch", "draw",      "bind",
+                                            "copy",       "blit",     "clear",    "fill",   "host",     "after",     "keep",
+                                            "fullscreen", "features", "spectrum", "with",   "block",    "multiview", "allow"};
 
 template <class List>
 bool contains(const List& words, std::string_view word) {

@@ -72,9 +72,11 @@ SamplerDeclaration parse_sampler(Parser& parser) {
   return sampler;
 }
 
-#define RG_STENCIL(word)                                                                                                          \
+#define RG_STENCIL(word)                                                                                                   \
   {word, "test", 1, 0}, {word, "fail", 1, 0}, {word, "depth_fail", 1, 0}, {word, "pass", 1, 0}, {word, "reference", 0, 1}, \
-      {word, "read_mask", 0, 1}, {word, "write_mask", 0, 1}
+      {word, "read_mask", 0, 1}, {                                                                                         \
+    word, "write_mask", 0, 1                                                                                               \
+  }
 
 StateDeclaration parse_state(Parser& parser) {
   StateDeclaration state;

@@ -150,7 +150,8 @@ void parse_indirect(Parser& parser, ast::DrawStatement& draw) {
 
 // `draw 36 instances 8 first 3`, `draw indexed 36 instances 8 first 3 offset 24`
 void parse_direct(Parser& parser, ast::DrawStatement& draw) {
-  draw.vertices = parse_expression(parser, draw.indexed ? "a number of indices, or `indirect`" : "a number of vertices, `indirect`, `indexed` or `host`");
+  draw.vertices =
+      parse_expression(parser, draw.indexed ? "a number of indices, or `indirect`" : "a number of vertices, `indirect`, `indexed` or `host`");
   if (!parser.silent && parser.accept_word("instances")) draw.instances = parse_expression(parser, "a number of instances");
   if (!parser.silent && parser.accept_word("first")) draw.first = parse_expression(parser, draw.indexed ? "the first index" : "the first vertex");
   if (!parser.silent && draw.indexed && parser.accept_word("offset")) draw.offset = parse_expression(parser, "what is added to every index");

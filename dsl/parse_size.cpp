@@ -28,7 +28,8 @@ bool is_number(const Parser& parser, size_t ahead) {
 
 // `x64`, which is a word where it does not touch the number before it.
 bool is_axis_word(std::string_view word) {
-  return word.size() > 1 && (word[0] == 'x' || word[0] == 'X') && std::all_of(word.begin() + 1, word.end(), [](unsigned char c) { return std::isdigit(c); });
+  return word.size() > 1 && (word[0] == 'x' || word[0] == 'X') &&
+         std::all_of(word.begin() + 1, word.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
 // One more number; false where none follows. In groups a word may be a constant's name.

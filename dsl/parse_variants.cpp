@@ -84,7 +84,8 @@ ast::FeatureTerm parse_feature_term(Parser& parser) {
   ast::FeatureTerm term;
   const uint32_t begin = parser.peek().begin;
   term.negated = parser.is(TokenKind::identifier, 1) && !parser.peek(1).starts_line && parser.accept_word("not");
-  if (parser.is(TokenKind::bang)) parser.complain(Diagnostic(DiagnosticKind::UnexpectedToken, parser.here(), {"`not`", "`!`"}).fix(parser.here(), "not "));
+  if (parser.is(TokenKind::bang))
+    parser.complain(Diagnostic(DiagnosticKind::UnexpectedToken, parser.here(), {"`not`", "`!`"}).fix(parser.here(), "not "));
   term.feature = parser.expect_name("a feature");
   if (!parser.silent && (parser.is(TokenKind::equal_equal) || parser.is(TokenKind::not_equal))) {
     term.negated ^= parser.is(TokenKind::not_equal);

@@ -127,7 +127,7 @@ ast::ResourceDeclaration parse_image_type(Parser& parser, ast::ResourceDeclarati
 ast::PassDeclaration parse_pass(Parser& parser);  // after `pass`
 ast::BundleDeclaration parse_bundle(Parser& parser);
 void parse_pass_body(Parser& parser, ast::PassDeclaration& pass);
-ast::FeatureTerm parse_feature_term(Parser& parser);         // `not fog`, `path == low`
+ast::FeatureTerm parse_feature_term(Parser& parser);  // `not fog`, `path == low`
 ast::FeatureDeclaration parse_feature(Parser& parser);
 ast::FeaturesStatement parse_features(Parser& parser);
 ast::SpectrumStatement parse_spectrum_statement(Parser& parser);

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "dsl/layout.h"
-
 #include "dsl/format_table.h"
+#include "dsl/layout.h"
 #include "dsl/source.h"
 
 namespace rg::dsl {
@@ -225,7 +224,8 @@ void print_transfer(Printer& at, const Transfer& transfer) {
 
 std::string heading(const Program& program, const Graph& graph, const Pass& pass) {
   std::string text = fmt::format("{} queue {}{}", word(kPassKinds, pass.kind), word(kQueues, pass.queue), pass.queue_may ? " may" : "");
-  for (const ParamsUse& use : pass.params) text += " params " + (use.name == graph.params[use.id].name ? "" : use.name + " = ") + graph.params[use.id].name;
+  for (const ParamsUse& use : pass.params)
+    text += " params " + (use.name == graph.params[use.id].name ? "" : use.name + " = ") + graph.params[use.id].name;
   if (pass.state.valid()) text += " state " + program.states[pass.state].name;
   if (!pass.bind.empty()) text += " bind " + pass.bind;
   for (const PassId other : pass.after) text += " after " + graph.passes[other].name;
@@ -238,7 +238,8 @@ std::string heading(const Program& program, const Graph& graph, const Pass& pass
 
 std::string block_text(const Program& program, const Block& block) {
   std::string text = fmt::format("    block over {} {}", block.axes, block.axes == 1 ? "axis" : "axes");
-  if (block.scan != kAll) text += fmt::format(" scan {} {}{}", "xyz"[block.scan], print_type(program, block.carry), block.associative ? " associative" : "");
+  if (block.scan != kAll)
+    text += fmt::format(" scan {} {}{}", "xyz"[block.scan], print_type(program, block.carry), block.associative ? " associative" : "");
   return text;
 }
 
@@ -265,7 +266,8 @@ void print_graph(Printer& at, const Graph& graph) {
             params.pass.valid() ? " of " + graph.passes[params.pass].name : "");
   for (size_t i = 0; i < graph.resources.size(); ++i) print_resource(at, i, graph.resources.rows[i]);
   for (const Fusion& fusion : graph.fusions)
-    at.line("  fuse {}{}{}{}", fusion.name, fusion.may ? " may" : "", fusion.unrounded ? " unrounded" : "", fusion.when ? guard_text(at.program, {{*fusion.when}}) : "");
+    at.line("  fuse {}{}{}{}", fusion.name, fusion.may ? " may" : "", fusion.unrounded ? " unrounded" : "",
+            fusion.when ? guard_text(at.program, {{*fusion.when}}) : "");
   for (size_t i = 0; i < graph.passes.size(); ++i) print_pass(at, graph, i, graph.passes.rows[i]);
   for (const Assertion& assertion : graph.assertions)
     at.line("  {} {} {} {}", assertion.is_error ? "assert" : "warn", assertion.fact, assertion.comparison,

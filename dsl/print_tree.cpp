@@ -190,7 +190,8 @@ void visit(Printer& at, const Use& node) {
 }
 
 void visit(Printer& at, const Fuse& node) {
-  at.line("fuse " + text(node.name) + (node.may ? " may" : "") + (node.unrounded ? " unrounded" : "") + (node.term ? " when " + term_text(*node.term) : ""));
+  at.line("fuse " + text(node.name) + (node.may ? " may" : "") + (node.unrounded ? " unrounded" : "") +
+          (node.term ? " when " + term_text(*node.term) : ""));
   print_items(at, node.body);
 }
 
@@ -232,7 +233,10 @@ void visit(Printer& at, const SamplerDeclaration& node) { at.line("sampler " + t
 void visit(Printer& at, const StateDeclaration& node) { at.line("state " + text(node.name) + settings_text(node.settings)); }
 
 void visit(Printer& at, const FeatureDeclaration& node) {
-  std::string out = "feature " + text(node.name) + ":" + (!node.capability.empty() ? " device " + text(node.capability) : node.is_bool ? " bool" : "");
+  std::string out = "feature " + text(node.name) + ":" +
+                    (!node.capability.empty() ? " device " + text(node.capability)
+                     : node.is_bool           ? " bool"
+                                              : "");
   for (const Name& value : node.values) out += " " + text(value);
   for (const FeatureRule& rule : node.rules)
     out += " (" + (rule.value.empty() ? "" : text(rule.value) + " ") + (rule.excludes ? "excludes " : "requires ") + term_text(rule.term) + ")";

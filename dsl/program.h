@@ -14,6 +14,8 @@
 #include "dsl/ids.h"
 #include "dsl/source.h"
 
+// Rows that belong together share a line.
+// clang-format off
 namespace rg::dsl {
 
 using ExprId = Id<struct ExprTag>;

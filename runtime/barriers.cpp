@@ -88,8 +88,8 @@ uint32_t group_period(const Context& context, const Sized& sized, const BarrierG
 constexpr Accesses kWrites = access::shader_write | access::color_attachment_write | access::depth_stencil_attachment_write | access::transfer_write |
                              access::host_write | access::memory_write | access::shader_storage_write;
 
-// Where a transfer is none, its acquire relies on a wait for the release's queue. The validation layer loses the writes before such a wait when the next
-// thing is a transition: while it watches, the acquire names them once more.
+// Where a transfer is none, its acquire relies on a wait for the release's queue. The validation layer loses the writes before such a wait when the
+// next thing is a transition: while it watches, the acquire names them once more.
 template <class Barriers, class Same>
 void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelineStageFlags2& stages, VkAccessFlags2& accesses) {
   for (const auto& other : all) {
@@ -97,8 +97,8 @@ void name_released_writes(const Barriers& all, Index queue, Same same, VkPipelin
     stages |= other.src_stages, accesses |= other.src_accesses;
   }
 }
-// The same where an image that queues share changes its layout behind a wait: the writes of the passes of other queues that something waits for. Those of the
-// group's own queue, and those that nothing waits for, are the plan's to name: a hazard is reported.
+// The same where an image that queues share changes its layout behind a wait: the writes of the passes of other queues that something waits for.
+// Those of the group's own queue, and those that nothing waits for, are the plan's to name: a hazard is reported.
 Stages stages_of(const DeviceQueue& queue) {
   if ((queue.flags & VK_QUEUE_GRAPHICS_BIT) != 0) return ~Stages{0};
   return stage::copy | stage::clear | ((queue.flags & VK_QUEUE_COMPUTE_BIT) != 0 ? stage::compute_shader : stage::none);
@@ -110,7 +110,8 @@ void name_shared_writes(const Context& context, const WaitReach& reach, Index gr
     const Pass& pass = context.plan.passes[p];
     if (!reach.comes_after(group, p)) continue;
     for (const Access& access : context.plan.accesses.subspan(pass.first_access, pass.access_count))
-      if (access.ref == in.image && access.writes && (access.stages & ~possible) == 0) out.srcStageMask |= access.stages, out.srcAccessMask |= access.accesses & kWrites;
+      if (access.ref == in.image && access.writes && (access.stages & ~possible) == 0)
+        out.srcStageMask |= access.stages, out.srcAccessMask |= access.accesses & kWrites;
   }
 }
 void repeat_release(const Context& context, const WaitReach* reach, Index group, const ImageBarrier& in, VkImageMemoryBarrier2& out) {

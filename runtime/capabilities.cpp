@@ -20,15 +20,16 @@ constexpr Extension kExtensions[] = {{Capability::conservative_rasterization, VK
 
 std::string_view name(Capability capability) {
   static constexpr std::array<std::string_view, 12> kNames = {
-      "none",        "subgroup_arithmetic", "subgroup_ballot",           "subgroup_shuffle", "subgroup_quad", "subgroup_size_32", "subgroup_size_64",
-      "depth_bounds", "conservative_rasterization", "barycentrics", "sample_locations", "multiview"};
+      "none",         "subgroup_arithmetic",        "subgroup_ballot", "subgroup_shuffle", "subgroup_quad", "subgroup_size_32", "subgroup_size_64",
+      "depth_bounds", "conservative_rasterization", "barycentrics",    "sample_locations", "multiview"};
   return kNames[static_cast<size_t>(capability)];
 }
 
 std::vector<const char*> capability_extensions(const Device::State& state) {
   std::vector<const char*> names;
   for (const Extension& extension : kExtensions)
-    if (has_device_extension(state.vk, state.physical, extension.name) && (state.without & bit(extension.capability)) == 0) names.push_back(extension.name);
+    if (has_device_extension(state.vk, state.physical, extension.name) && (state.without & bit(extension.capability)) == 0)
+      names.push_back(extension.name);
   return names;
 }
 
@@ -58,7 +59,8 @@ bool places_samples(const Device::State& state) {
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &locations;
   state.vk.GetPhysicalDeviceProperties2(state.physical, &properties);
-  const VkSampleCountFlags attachments = properties.properties.limits.framebufferColorSampleCounts & ~static_cast<VkSampleCountFlags>(VK_SAMPLE_COUNT_1_BIT);
+  const VkSampleCountFlags attachments =
+      properties.properties.limits.framebufferColorSampleCounts & ~static_cast<VkSampleCountFlags>(VK_SAMPLE_COUNT_1_BIT);
   return (attachments & ~locations.sampleLocationSampleCounts) == 0;
 }
 

@@ -253,7 +253,8 @@ Status create_ring(const Context& context, Sized& sized) {
   const VkDeviceSize used = lay_out_updates(sized, lay_out_params(context, sized.ring));
   if (used == 0) return Done{};
   if (used > kMostRingBytes)
-    return Error{ErrorCode::unsupported, "graph `" + std::string(context.plan.name) + "`: updates and parameter blocks of a frame need more than 1 GiB"};
+    return Error{ErrorCode::unsupported,
+                 "graph `" + std::string(context.plan.name) + "`: updates and parameter blocks of a frame need more than 1 GiB"};
   sized.ring.section = round_up(used, std::max<VkDeviceSize>(context.device.limits.minUniformBufferOffsetAlignment, 256));
   constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
   const VkDeviceSize bytes = sized.ring.section * context.frames_in_flight;

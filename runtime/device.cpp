@@ -122,9 +122,7 @@ void add_queue(Device::State& state, const ExternalQueue& queue) {
 
 bool Device::has(Capability capability) const { return (state_->capabilities & bit(capability)) != 0; }
 
-Status Device::wait_idle() {
-  return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {});
-}
+Status Device::wait_idle() { return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {}); }
 
 Result<Device> Device::adopt(const ExternalDevice& external) {
   if (external.get_instance_proc_addr == nullptr || external.device == VK_NULL_HANDLE || external.queue == VK_NULL_HANDLE)
@@ -150,8 +148,8 @@ Result<Device> Device::adopt(const ExternalDevice& external) {
   state->capabilities = subgroup_capabilities(*state) | enabled_capabilities(external.features);
   constexpr VkQueueFlags universal = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   if ((state->queues[0].flags & universal) != universal)
-    return Error{ErrorCode::invalid_argument, "ExternalDevice::queue must do graphics and compute; its family " +
-                                                  std::to_string(external.queue_family) + " does not"};
+    return Error{ErrorCode::invalid_argument,
+                 "ExternalDevice::queue must do graphics and compute; its family " + std::to_string(external.queue_family) + " does not"};
   return Device(std::move(state));
 }
 

@@ -20,8 +20,8 @@ struct DeviceFunctions;  // runtime/functions.h: every Vulkan function the runti
 
 // How a device of the runtime's own is made.
 struct DeviceOptions {
-  int device = -1;              // index as `list_devices` numbers them; -1: best
-  bool validate = false;        // Khronos validation with synchronization and submit-time checks; an error if the layer is missing
+  int device = -1;        // index as `list_devices` numbers them; -1: best
+  bool validate = false;  // Khronos validation with synchronization and submit-time checks; an error if the layer is missing
   std::function<void(bool is_error, std::string_view message)> on_message;  // validation messages
   std::vector<const char*> instance_extensions, device_extensions;
   std::vector<const char*> layers;  // below validation, in this order
@@ -50,14 +50,16 @@ struct ExternalDevice {
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physical_device = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;                  // does graphics and compute
+  VkQueue queue = VK_NULL_HANDLE;  // does graphics and compute
   uint32_t queue_family = 0;
   PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
-  std::mutex* queue_mutex = nullptr;               // see ExternalQueue
+  std::mutex* queue_mutex = nullptr;                // see ExternalQueue
   std::span<const ExternalQueue> more_queues = {};  // taken by plans that have queues of their kind
   EnabledFeatures features = {};
-  const VkAllocationCallbacks* allocator = nullptr;  // called from several threads at a time, unless every instance has one of GraphOptions::threads and pipeline_threads
-  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;   // used by all pipelines of the runtime; likewise, so not made VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT
+  const VkAllocationCallbacks* allocator =
+      nullptr;  // called from several threads at a time, unless every instance has one of GraphOptions::threads and pipeline_threads
+  VkPipelineCache pipeline_cache =
+      VK_NULL_HANDLE;  // used by all pipelines of the runtime; likewise, so not made VK_PIPELINE_CACHE_CREATE_EXTERNALLY_SYNCHRONIZED_BIT
 };
 
 // What a null device counts and how it misbehaves.
@@ -69,21 +71,22 @@ struct NullCounters {
 };
 // What a null device has, and which of its calls fail.
 struct NullOptions {
-  uint64_t fail_at = 0;                                     // this fallible call and no other fails; counted from 1, 0: none
+  uint64_t fail_at = 0;  // this fallible call and no other fails; counted from 1, 0: none
   VkResult failure = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  NullCounters* counters = nullptr;                         // outlives the device
-  bool fails_from_then_on = false;                          // `fail_at` and all later ones fail: a lost device stays lost
-  uint32_t compute_queues = 0, transfer_queues = 0;         // each kind in a family of its own, beside one universal queue
-  std::vector<Capability> capabilities = {};                // that it has
-  bool lazy_memory = false;                                 // a memory type that is backed as needed, for images that live in renderings only
+  NullCounters* counters = nullptr;                            // outlives the device
+  bool fails_from_then_on = false;                             // `fail_at` and all later ones fail: a lost device stays lost
+  uint32_t compute_queues = 0, transfer_queues = 0;            // each kind in a family of its own, beside one universal queue
+  std::vector<Capability> capabilities = {};                   // that it has
+  bool lazy_memory = false;                                    // a memory type that is backed as needed, for images that live in renderings only
   bool prefers_dedicated = false, requires_dedicated = false;  // memory of its own for every image
 };
 
-// One Vulkan device and its queues. Outlives every instance, swapchain and object made with it. Movable: what was made with it stays valid. Any thread may use it;
-// submits to one queue exclude each other.
+// One Vulkan device and its queues. Outlives every instance, swapchain and object made with it. Movable: what was made with it stays valid. Any
+// thread may use it; submits to one queue exclude each other.
 class Device {
  public:
-  // A device of the runtime's own with up to two queues of every family. `unsupported` where there is no loader, no driver or no device that suffices, with what is missing.
+  // A device of the runtime's own with up to two queues of every family. `unsupported` where there is no loader, no driver or no device that
+  // suffices, with what is missing.
   static Result<Device> create(const DeviceOptions& options);
   // The engine's device. `unsupported` where a function that the runtime needs is missing; `invalid_argument` where a handle is.
   static Result<Device> adopt(const ExternalDevice& external);
@@ -100,22 +103,22 @@ class Device {
   PFN_vkVoidFunction instance_function(const char* name) const;
   VkDevice handle() const;            // likewise
   VkPhysicalDevice physical() const;  // the device that it runs on
-  VkQueue queue() const;  // does graphics and compute
-  uint32_t queue_family() const;          // of queue()
-  size_t queue_count() const;             // over all families
+  VkQueue queue() const;              // does graphics and compute
+  uint32_t queue_family() const;      // of queue()
+  size_t queue_count() const;         // over all families
   // The families of all queues, without repetition. Imports that a plan uses on several queues (Resource::concurrent) are created for all of them.
   std::span<const uint32_t> queue_families() const;
   // Waits on the host until nothing runs; for shutting down. Excludes submits of other threads.
   Status wait_idle();
-  std::string_view name() const;          // "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string_view name() const;                 // "llvmpipe (LLVM 15.0.6, 256 bits)"
   const VkPhysicalDeviceLimits& limits() const;  // of the physical device
   bool has(Capability capability) const;         // as enabled, less `DeviceOptions::without`
-  bool validating() const;                // the layer is really loaded
-  uint64_t validation_messages() const;   // errors and warnings of synchronization and core checks so far
+  bool validating() const;                       // the layer is really loaded
+  uint64_t validation_messages() const;          // errors and warnings of synchronization and core checks so far
   uint32_t memory_type(uint32_t type_bits, VkMemoryPropertyFlags wanted, VkMemoryPropertyFlags preferred = 0) const;  // UINT32_MAX: none
 
-  struct State;                           // device_state.h, for the runtime's own files
-  State& state() { return *state_; }      // likewise
+  struct State;                       // device_state.h, for the runtime's own files
+  State& state() { return *state_; }  // likewise
 
  private:
   explicit Device(std::unique_ptr<State> state);
@@ -123,7 +126,12 @@ class Device {
 };
 
 // A device that the loader knows; `reason`: why it is not usable.
-struct DeviceDescription { std::string name; uint32_t api_version = 0; bool usable = false; std::string reason; };
+struct DeviceDescription {
+  std::string name;
+  uint32_t api_version = 0;
+  bool usable = false;
+  std::string reason;
+};
 // All of them, numbered as DeviceOptions::device. Makes an instance and destroys it; empty where there is no loader.
 std::vector<DeviceDescription> list_devices();
 

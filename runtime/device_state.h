@@ -52,7 +52,7 @@ struct Device::State {
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   std::vector<DeviceQueue> queues;  // [0] does graphics and compute
-  std::vector<uint32_t> families;  // of `queues`, without repetition
+  std::vector<uint32_t> families;   // of `queues`, without repetition
   std::vector<std::unique_ptr<std::mutex>> mutexes;
   bool owned = false;  // instance, messenger and device are destroyed with the state
   std::string name;
@@ -67,7 +67,8 @@ struct Device::State {
   bool pipeline_statistics = false;
   uint32_t capabilities = 0, without = 0;  // bits of Capability: present, and not to be looked for
   VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
-  // Semaphores that a submit has waited for stay until 64 others have come: drivers (Mesa) touch them after they have signalled that the submit is done.
+  // Semaphores that a submit has waited for stay until 64 others have come: drivers (Mesa) touch them after they have signalled that the submit is
+  // done.
   std::array<std::shared_ptr<void>, 64> resting;
   size_t next_resting = 0;
   std::mutex resting_mutex;
@@ -77,7 +78,7 @@ struct Device::State {
   std::mutex spare_mutex;
   CommandPool take_pool(uint32_t family);  // without a handle: there is none to spare
   void give_pool(CommandPool pool);        // nothing of it is in flight
-  std::atomic<bool> lost = false;  // said once; everything after fails without a call
+  std::atomic<bool> lost = false;          // said once; everything after fails without a call
   std::function<void(bool is_error, std::string_view message)> on_message;
   std::atomic<uint64_t> messages = 0;
   std::unique_ptr<NullDevice, NullDeviceDeleter> null;

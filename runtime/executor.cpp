@@ -65,7 +65,8 @@ Status submit_one_by_one(GraphInstance::State& state, FrameSlot& slot) {
   for (uint32_t i = 0; i < state.chunks.size(); ++i) {
     const Chunk& chunk = state.chunks[i];
     const auto start = std::chrono::steady_clock::now();
-    const std::span<const VkSemaphoreSubmitInfo> waits = i == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
+    const std::span<const VkSemaphoreSubmitInfo> waits =
+        i == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
     RG_TRY(submit_one(state, {state.context.queues.device_queue[plan.batches[chunk.batch].queue], slot.commands[i], true, waits, VK_NULL_HANDLE}));
     slot.done.values[0] = state.submitted.values[0];
     RG_TRY(wait_for(state, slot.done));
@@ -162,7 +163,9 @@ class OwnRecorder {
   }
 
  private:
-  FrameRecording start(size_t part) const { return start_recording(state_, inputs_, slot_, parts_[part].commands, state_.context.plan.batches[0].queue); }
+  FrameRecording start(size_t part) const {
+    return start_recording(state_, inputs_, slot_, parts_[part].commands, state_.context.plan.batches[0].queue);
+  }
   void next() {
     close_module(recording_);
     FrameRecording following = start(++part_);
@@ -186,7 +189,8 @@ Status record_own_frame(GraphInstance::State& state, const FrameInputs& given, s
   RG_TRY(wait_for_entry(state));  // a submit of the engine's waits for nothing of ours
   OwnRecorder recorder(state, inputs, slot, parts);
   for (const Batch& batch : state.context.plan.batches) recorder.batch(batch);
-  if (!recorder.finish()) return Error{ErrorCode::invalid_argument, "own commands: their last passes are not in the order in which passes are recorded"};
+  if (!recorder.finish())
+    return Error{ErrorCode::invalid_argument, "own commands: their last passes are not in the order in which passes are recorded"};
   state.submitted.engine = done.timeline;
   state.submitted.engine_value = done.value;
   end_frame(state, slot);

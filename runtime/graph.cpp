@@ -14,11 +14,11 @@
 #include "runtime/queues.h"
 #include "runtime/record_rows.h"
 #include "runtime/resources.h"
-#include "runtime/turns.h"
 #include "runtime/samplers.h"
 #include "runtime/slots.h"
 #include "runtime/submit.h"
 #include "runtime/timelines.h"
+#include "runtime/turns.h"
 
 namespace rg {
 
@@ -163,14 +163,15 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, co
 
 namespace {
 
-Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options, const Predecessor* before) {
+Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options,
+                                                           const Predecessor* before) {
   RG_TRY(check_plan(plan));
   RG_TRY(check_options(plan, options));
   auto state = std::make_unique<GraphInstance::State>(make_context(device, plan, options));
   for (const Capability capability : plan.needs)
     if ((device.capabilities & bit(capability)) == 0)
-      return Error{ErrorCode::unsupported, "plan `" + std::string(plan.name) + "` is for devices with " + std::string(name(capability)) + ", which `" +
-                                               device.name + "` lacks; take another variant of it"};
+      return Error{ErrorCode::unsupported, "plan `" + std::string(plan.name) + "` is for devices with " + std::string(name(capability)) +
+                                               ", which `" + device.name + "` lacks; take another variant of it"};
   state->features.resize(plan.features.size());
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));
@@ -360,8 +361,9 @@ bool GraphInstance::history_valid(Index resource) const {
 Status GraphInstance::invalidate(Index resource) {
   const Plan& plan = state_->context.plan;
   if (resource >= plan.resources.size() || state_->sized->kept[resource] == nullptr)
-    return Error{ErrorCode::invalid_argument, "graph `" + std::string(plan.name) + "`: only history and persistent resources are invalidated" +
-                                                  (resource < plan.resources.size() ? "; `" + std::string(plan.resources[resource].name) + "` is neither" : "")};
+    return Error{ErrorCode::invalid_argument,
+                 "graph `" + std::string(plan.name) + "`: only history and persistent resources are invalidated" +
+                     (resource < plan.resources.size() ? "; `" + std::string(plan.resources[resource].name) + "` is neither" : "")};
   if (plan.resources[resource].init != InitKind::clear)
     return Error{ErrorCode::invalid_argument, "`" + std::string(plan.resources[resource].name) + "` declares no initial value to go back to"};
   std::vector<Index>& list = state_->invalidated;
@@ -375,8 +377,9 @@ Status GraphInstance::set_active(std::span<const int64_t> extents) {
   RG_TRY(check_extents(state_->context.plan, extents));
   for (size_t i = 0; i < extents.size(); ++i)
     if (extents[i] > state_->sized->extents[i])
-      return Error{ErrorCode::invalid_argument, "active extent " + std::to_string(extents[i]) + " is larger than the one that memory was placed for: " +
-                                                    std::to_string(state_->sized->extents[i]) + "; resize first"};
+      return Error{ErrorCode::invalid_argument,
+                   "active extent " + std::to_string(extents[i]) +
+                       " is larger than the one that memory was placed for: " + std::to_string(state_->sized->extents[i]) + "; resize first"};
   activate(state_->context, state_->objects, *state_->sized, extents);
   return Done{};
 }

@@ -27,9 +27,9 @@ struct PassInfo {
   VkFormat depth_format = VK_FORMAT_UNDEFINED, stencil_format = VK_FORMAT_UNDEFINED;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   uint32_t view_mask = 0;
-  VkExtent2D extent = {1, 1};                       // of the rendering, or of the dispatch
-  VkPipelineLayout layout = VK_NULL_HANDLE;         // set 0 engine, 1 pass, push constants as declared
-  VkPipeline pipeline = VK_NULL_HANDLE;             // the generated one, already bound; null where the pass names no shader
+  VkExtent2D extent = {1, 1};                         // of the rendering, or of the dispatch
+  VkPipelineLayout layout = VK_NULL_HANDLE;           // set 0 engine, 1 pass, push constants as declared
+  VkPipeline pipeline = VK_NULL_HANDLE;               // the generated one, already bound; null where the pass names no shader
   VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;  // of set 1
   // The same attachments as a classic render pass, subpass 0, where the device was created to validate; null otherwise.
   VkRenderPass render_pass = VK_NULL_HANDLE;
@@ -45,15 +45,24 @@ struct Recording {
 // Records one pass; `user` is FrameInputs::user.
 using RecordFunction = void (*)(void* user, Recording& recording);
 
-struct ImportedImage { VkImage image = VK_NULL_HANDLE; VkImageView view = VK_NULL_HANDLE; };  // view: all mips and layers, the declared dimension
+struct ImportedImage {
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+};  // view: all mips and layers, the declared dimension
 // A part of a buffer of the engine's.
-struct ImportedBuffer { VkBuffer buffer = VK_NULL_HANDLE; VkDeviceSize offset = 0, size = VK_WHOLE_SIZE; };
+struct ImportedBuffer {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0, size = VK_WHOLE_SIZE;
+};
 // One of the two, by the kind of the resource.
-struct Import { ImportedImage image = {}; ImportedBuffer buffer = {}; };
+struct Import {
+  ImportedImage image = {};
+  ImportedBuffer buffer = {};
+};
 
 // A semaphore of the engine that a frame waits for or signals; value 0: a binary one.
-// With an import slot it guards that import: the wait is part of the first batch on every queue that touches it (a binary semaphore: of the first such
-// batch alone), the signal comes when its last user is done. Without, the whole frame waits, or is done.
+// With an import slot it guards that import: the wait is part of the first batch on every queue that touches it (a binary semaphore: of the first
+// such batch alone), the signal comes when its last user is done. Without, the whole frame waits, or is done.
 struct SemaphoreUse {
   VkSemaphore semaphore = VK_NULL_HANDLE;
   uint64_t value = 0;
@@ -63,24 +72,26 @@ struct SemaphoreUse {
 
 // What one frame takes. Read during the call only.
 struct FrameInputs {
-  std::span<const Import> imports = {};                        // by Resource::import_slot
-  std::span<const std::span<const std::byte>> params = {};     // by index of Plan::params, exactly `bytes` each
-  RecordFunction const* callbacks = nullptr;              // by Pass::host_slot
-  void* user = nullptr;                                   // given to every callback
-  uint64_t conditions = 0;                                // bits of Plan::conditions
-  std::span<const std::span<const std::byte>> updates = {};    // by Transfer::update_slot
-  std::span<const VkDescriptorSet> engine_sets = {};           // by index of Plan::engine_sets
-  std::span<const uint32_t> features = {};                     // values, by index of Plan::features; empty: the initial ones
-  std::span<const SemaphoreUse> waits = {}, signals = {};      // at most 16 each
+  std::span<const Import> imports = {};                      // by Resource::import_slot
+  std::span<const std::span<const std::byte>> params = {};   // by index of Plan::params, exactly `bytes` each
+  RecordFunction const* callbacks = nullptr;                 // by Pass::host_slot
+  void* user = nullptr;                                      // given to every callback
+  uint64_t conditions = 0;                                   // bits of Plan::conditions
+  std::span<const std::span<const std::byte>> updates = {};  // by Transfer::update_slot
+  std::span<const VkDescriptorSet> engine_sets = {};         // by index of Plan::engine_sets
+  std::span<const uint32_t> features = {};                   // values, by index of Plan::features; empty: the initial ones
+  std::span<const SemaphoreUse> waits = {}, signals = {};    // at most 16 each
 };
 
-// How an engine runs jobs on its own threads, parts of a frame or pipelines: calls job(data, i) for every i below `count`, in any order, and returns when all are done.
+// How an engine runs jobs on its own threads, parts of a frame or pipelines: calls job(data, i) for every i below `count`, in any order, and returns
+// when all are done.
 struct Parallel {
   void (*run)(void* user, uint32_t count, void (*job)(void* data, uint32_t index), void* data) = nullptr;
   void* user = nullptr;
 };
 
-// A part of a frame for a command buffer of the engine's, which is being recorded, outside a rendering scope, and belongs to the family of Device::queue.
+// A part of a frame for a command buffer of the engine's, which is being recorded, outside a rendering scope, and belongs to the family of
+// Device::queue.
 struct OwnCommands {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   Index last_pass = kNone;  // gets every step after the part before, up to and with this pass; the last part gets the rest
@@ -91,43 +102,52 @@ struct FrameDone {
   uint64_t value = 0;
 };
 
-// Memory that the transients of several instances take turns in: the views of a split screen, the faces of a probe, the versions of a plan. A frame of one
-// waits, on the GPU, for the last frame of whoever had it before. One thread for all of them; lives as long as one of them does.
+// Memory that the transients of several instances take turns in: the views of a split screen, the faces of a probe, the versions of a plan. A frame
+// of one waits, on the GPU, for the last frame of whoever had it before. One thread for all of them; lives as long as one of them does.
 struct TransientHeap;
 std::shared_ptr<TransientHeap> make_transient_heap();  // empty; grows with its first users
 
 // How an instance is made. Spans are read during the call only.
 struct GraphOptions {
-  uint32_t frames_in_flight = 2;          // 1 to 4
-  std::span<const int64_t> extents = {};       // 3 values an extent; empty: the plan's initial ones
+  uint32_t frames_in_flight = 2;                                   // 1 to 4
+  std::span<const int64_t> extents = {};                           // 3 values an extent; empty: the plan's initial ones
   std::span<const VkDescriptorSetLayout> engine_set_layouts = {};  // by index of Plan::engine_sets
   bool aliasing = true;
-  bool poison = false;                    // fills acquired transients with a pattern
-  bool debug_readback = false;            // adds transfer usage so that dump() works
-  bool submit_per_pass = false;           // times every pass in its own submit by the wall clock: for drivers whose timestamps do not separate passes
-  bool single_queue = false;              // all of the plan's queues on Device::queue, in the order of its batches
-  bool serial = false;                    // single_queue, and every pass waits for all before it
-  bool timestamps = true;                 // two GPU timestamps a pass, for pass_times
-  bool statistics = false;                // pipeline statistics of each pass, where the device has them
-  uint32_t threads = 1;                   // 1 to 64: that many record a frame; callbacks of different passes then run at the same time
+  bool poison = false;           // fills acquired transients with a pattern
+  bool debug_readback = false;   // adds transfer usage so that dump() works
+  bool submit_per_pass = false;  // times every pass in its own submit by the wall clock: for drivers whose timestamps do not separate passes
+  bool single_queue = false;     // all of the plan's queues on Device::queue, in the order of its batches
+  bool serial = false;           // single_queue, and every pass waits for all before it
+  bool timestamps = true;        // two GPU timestamps a pass, for pass_times
+  bool statistics = false;       // pipeline statistics of each pass, where the device has them
+  uint32_t threads = 1;          // 1 to 64: that many record a frame; callbacks of different passes then run at the same time
   std::shared_ptr<TransientHeap> heap = {};  // null: transients have memory of their own
-  Parallel parallel = {};                 // the engine's threads instead of the runtime's own; `threads` says how many to expect
-  // 1 to 64: that many make the pipelines at creation, which returns when all are made. 0: those that record a frame where there are several, else one a core;
-  // on a null device one, so that its calls come in one order. What an instance is, or why there is none, does not depend on it.
+  Parallel parallel = {};                    // the engine's threads instead of the runtime's own; `threads` says how many to expect
+  // 1 to 64: that many make the pipelines at creation, which returns when all are made. 0: those that record a frame where there are several, else
+  // one a core; on a null device one, so that its calls come in one order. What an instance is, or why there is none, does not depend on it.
   uint32_t pipeline_threads = 0;
 };
 
-// Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory, and images in
-// memory that the driver backs only where a rendering does not fit on the chip; those are in no other figure.
-struct MemoryReport { uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0, lazy_bytes = 0; };
-struct PassTime { std::string_view pass; double ms = 0; double begin_ms = 0; };  // begin: after the frame's first timestamp, on the clock of its queue
+// Bytes of an instance: placed, if nothing was shared, the least that any placement needs, history and persistent resources, mapped memory, and
+// images in memory that the driver backs only where a rendering does not fit on the chip; those are in no other figure.
+struct MemoryReport {
+  uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0, persistent_bytes = 0, host_bytes = 0, lazy_bytes = 0;
+};
+struct PassTime {
+  std::string_view pass;
+  double ms = 0;
+  double begin_ms = 0;
+};  // begin: after the frame's first timestamp, on the clock of its queue
 // Of one pass of a graphics queue; zeros elsewhere.
 struct PassStatistics {
   std::string_view pass;
   uint64_t vertices = 0, vertex_invocations = 0, primitives = 0, fragment_invocations = 0, compute_invocations = 0;
 };
 // Where a resource lies in its heap.
-struct PlacedResource { std::string_view name; uint64_t offset = 0, bytes = 0; };
+struct PlacedResource {
+  std::string_view name;
+  uint64_t offset = 0, bytes = 0;
+};
 
 // Contents of one resource after one pass, tightly packed, one mip, all layers or slices.
 struct Dump {
@@ -155,27 +175,30 @@ class GraphInstance {
   // Re-places and recreates what depends on extents; earlier frames go on undisturbed. On failure the old state stays. History and persistent
   // resources start from their initial values again.
   Status resize(std::span<const int64_t> extents);
-  // Records and submits one frame. Waits only for the frame `frames_in_flight` ago. On failure the frame did not happen; the next call tries again, after a
-  // resize to the same extents where a device of several queues had taken a part of it. A lost device stays lost: all later calls say so at once.
+  // Records and submits one frame. Waits only for the frame `frames_in_flight` ago. On failure the frame did not happen; the next call tries again,
+  // after a resize to the same extents where a device of several queues had taken a part of it. A lost device stays lost: all later calls say so at
+  // once.
   Status execute(const FrameInputs& inputs);
   // The next execute submits nothing but records into command buffers of the engine's (at most 64), who then ends and submits them in this order on
-  // Device::queue, before this instance is called again, and makes that submit signal `done`. For plans of one queue, or with GraphOptions::single_queue.
+  // Device::queue, before this instance is called again, and makes that submit signal `done`. For plans of one queue, or with
+  // GraphOptions::single_queue.
   Status use_commands(std::span<const OwnCommands> parts, const FrameDone& done);
-  // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else `invalid_argument`.
+  // Adds to the semaphores of the next frame that is executed, for callers that fill no FrameInputs themselves. At most 16 each, else
+  // `invalid_argument`.
   Status use_semaphores(std::span<const SemaphoreUse> waits, std::span<const SemaphoreUse> signals);
   // Waits on the host for all frames of this instance. Cost: what is in flight.
   Status wait_idle();
-  // Before its next use `resource` is set to its declared initial value again, all copies of it: its contents became wrong, as after a cut of the camera or a
-  // change of the scene. On the GPU, between the frames before and the next one; the host waits for nothing but an earlier such reset. `invalid_argument` for
-  // what is neither history nor persistent, or declares no initial value. Any number of resources; once a frame is enough.
+  // Before its next use `resource` is set to its declared initial value again, all copies of it: its contents became wrong, as after a cut of the
+  // camera or a change of the scene. On the GPU, between the frames before and the next one; the host waits for nothing but an earlier such reset.
+  // `invalid_argument` for what is neither history nor persistent, or declares no initial value. Any number of resources; once a frame is enough.
   Status invalidate(Index resource);
-  // Dynamic resolution: from the next frame on passes run over these extents, at most those of creation or resize; nothing is placed or made anew, images keep their
-  // size and are used from their corner. Cost: O(passes), no allocation.
+  // Dynamic resolution: from the next frame on passes run over these extents, at most those of creation or resize; nothing is placed or made anew,
+  // images keep their size and are used from their corner. Cost: O(passes), no allocation.
   Status set_active(std::span<const int64_t> extents);
 
-  const Plan& plan() const;                     // that it runs; its tables are those that were given
-  const PassInfo& pass_info(Index pass) const;  // `pass` below the number of passes. Valid until a resize
-  MemoryReport memory() const;                  // at the extents of creation or resize
+  const Plan& plan() const;                        // that it runs; its tables are those that were given
+  const PassInfo& pass_info(Index pass) const;     // `pass` below the number of passes. Valid until a resize
+  MemoryReport memory() const;                     // at the extents of creation or resize
   std::vector<PlacedResource> placements() const;  // likewise; a tool: allocates
   // Of the last finished frame: GPU timestamps, or wall-clock times with submit_per_pass.
   std::vector<PassTime> pass_times();
@@ -183,11 +206,11 @@ class GraphInstance {
   std::vector<PassStatistics> pass_statistics();
   // Contents of a `readback` buffer of the last finished frame (waits for it). Valid until the next execute.
   Result<std::span<const std::byte>> readback(Index resource);
-  // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump. Several may be asked for at once: they are
-  // taken in the order asked. A resize forgets what was asked for and not executed.
+  // The next execute keeps a copy of `resource` (mip `mip`) as it is right after `pass`; take it with take_dump. Several may be asked for at once:
+  // they are taken in the order asked. A resize forgets what was asked for and not executed.
   Status request_dump(Index pass, Index resource, uint32_t mip = 0);
   Result<Dump> take_dump();  // the oldest; waits for its frame; `invalid_argument` where none was executed
-  uint64_t frame() const;  // frames executed, those of the instances before included
+  uint64_t frame() const;    // frames executed, those of the instances before included
   // Whether `prev(1)` of a history or persistent resource is what a frame has left, and not its initial value.
   bool history_valid(Index resource) const;
 

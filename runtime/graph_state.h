@@ -16,10 +16,10 @@ namespace rg {
 
 // Where the work of a plan goes on a device; see queues.h.
 struct QueueMap {
-  std::vector<uint32_t> device_queue;     // by Plan::queues: in Device::State::queues
-  std::vector<Index> of_group, of_pass;   // in Plan::queues
-  std::vector<uint32_t> families;         // that may touch concurrent resources, without repetition; the first is that of Device::queue
-  bool several = false;                   // more than one VkQueue
+  std::vector<uint32_t> device_queue;    // by Plan::queues: in Device::State::queues
+  std::vector<Index> of_group, of_pass;  // in Plan::queues
+  std::vector<uint32_t> families;        // that may touch concurrent resources, without repetition; the first is that of Device::queue
+  bool several = false;                  // more than one VkQueue
 };
 
 // What every creating function needs.
@@ -52,16 +52,16 @@ struct MadePipeline {
 struct PassObjects {
   std::string name, module;
   VkDebugUtilsLabelEXT label{}, module_label{};  // of these names
-  uint32_t module_number = 0;  // equal for equal modules; 0: none
+  uint32_t module_number = 0;                    // equal for equal modules; 0: none
   std::vector<VkFormat> color_formats;
   UniqueSetLayout set_layout;  // of set 1; null: the empty one
   UniquePipelineLayout layout;
   RenderingPart part;
-  UniqueRenderPass render_pass;        // only where classic render passes are recorded
-  UniqueRenderPass whole_render_pass;  // where the pass is the first of several in a rendering
-  std::vector<MadePipeline> pipelines;  // each once
+  UniqueRenderPass render_pass;          // only where classic render passes are recorded
+  UniqueRenderPass whole_render_pass;    // where the pass is the first of several in a rendering
+  std::vector<MadePipeline> pipelines;   // each once
   VkPipeline pipeline = VK_NULL_HANDLE;  // one of them; that of the initial features where the device has it
-  std::vector<VkPipeline> choices;             // by combination of feature values; null: excluded
+  std::vector<VkPipeline> choices;       // by combination of feature values; null: excluded
   VkPipelineBindPoint bind_point = VK_PIPELINE_BIND_POINT_COMPUTE;
 };
 
@@ -268,8 +268,8 @@ struct Ring {
   std::vector<uint32_t> param_offsets;  // by Plan::params, within a section
 };
 
-// Contents that outlive plans and instances: one history or persistent resource with all its copies and memory of its own. Shared by the instances that take
-// turns with it.
+// Contents that outlive plans and instances: one history or persistent resource with all its copies and memory of its own. Shared by the instances
+// that take turns with it.
 struct Kept {
   VkImageCreateInfo image{};  // what it was made with; the pointers in it are not followed
   VkBufferCreateInfo buffer{};
@@ -292,9 +292,9 @@ struct TransferRef {
 
 struct Sized {
   std::vector<int64_t> extents;
-  std::vector<int64_t> values;           // of Plan::exprs at these extents
-  std::vector<int64_t> active_extents;   // at most `extents`; see GraphInstance::set_active
-  std::vector<UniqueMemory> memories;    // declared before what lies in it, so destroyed after it
+  std::vector<int64_t> values;                                 // of Plan::exprs at these extents
+  std::vector<int64_t> active_extents;                         // at most `extents`; see GraphInstance::set_active
+  std::vector<UniqueMemory> memories;                          // declared before what lies in it, so destroyed after it
   std::vector<std::shared_ptr<UniqueMemory>> shared_memories;  // of a TransientHeap
   std::vector<SizedResource> resources;                        // by Plan::resources
   std::vector<VkExtent3D> active;                              // by Plan::resources: at the active extents
@@ -366,9 +366,9 @@ struct FrameSlot {
 
 // Establishes entry states: a command buffer for Device::queue, then one for each other family that starts out owning something.
 struct Prologue {
-  std::vector<CommandPool> pools;        // by QueueMap::families
+  std::vector<CommandPool> pools;  // by QueueMap::families
   std::vector<VkCommandBuffer> commands;
-  std::vector<UniqueFence> fences;       // only when validating
+  std::vector<UniqueFence> fences;  // only when validating
   std::vector<bool> fenced;
   Moment done;
 };
@@ -410,8 +410,8 @@ struct TransientHeap {
     VkDeviceSize bytes = 0;
     std::shared_ptr<UniqueMemory> memory;
   };
-  std::vector<Block> blocks;           // the largest so far of each memory type
-  const void* last_user = nullptr;     // a GraphInstance::State
+  std::vector<Block> blocks;             // the largest so far of each memory type
+  const void* last_user = nullptr;       // a GraphInstance::State
   std::shared_ptr<Timelines> timelines;  // of the last user
   Moment moment;
 };
@@ -429,17 +429,17 @@ struct GraphInstance::State {
   Objects objects;
   std::shared_ptr<Timelines> timelines = std::make_shared<Timelines>();  // shared with whoever takes turns: it waits for them
   Moment submitted;                                                      // the last values that were submitted
-  std::array<uint64_t, kMaxPlanQueues> signals_a_frame{};  // by Plan::queues
-  std::vector<Chunk> chunks;                               // in the order of steps
-  std::vector<uint32_t> first_chunk;                       // by batch, and the end
+  std::array<uint64_t, kMaxPlanQueues> signals_a_frame{};                // by Plan::queues
+  std::vector<Chunk> chunks;                                             // in the order of steps
+  std::vector<uint32_t> first_chunk;                                     // by batch, and the end
   std::vector<uint32_t> pool_families;
-  std::vector<SubmitCall> calls;  // of a frame
-  std::vector<Index> first_batch_of_queue;                 // kNone: no batch
+  std::vector<SubmitCall> calls;            // of a frame
+  std::vector<Index> first_batch_of_queue;  // kNone: no batch
   std::vector<ImportUse> import_uses;
-  std::vector<VkSemaphoreSubmitInfo> entry_waits;          // of the first batch on every queue of the next frame
-  bool entry_barrier = false;                              // the next frame begins behind everything before it on each queue
-  bool has_turn = false;                                   // the heap's last user is among the entry waits
-  std::vector<std::shared_ptr<Timelines>> entry_sources;   // whose semaphores the last entry waits named
+  std::vector<VkSemaphoreSubmitInfo> entry_waits;         // of the first batch on every queue of the next frame
+  bool entry_barrier = false;                             // the next frame begins behind everything before it on each queue
+  bool has_turn = false;                                  // the heap's last user is among the entry waits
+  std::vector<std::shared_ptr<Timelines>> entry_sources;  // whose semaphores the last entry waits named
   std::vector<FrameSlot> slots;
   Prologue prologue;
   std::unique_ptr<Workers, WorkersDeleter> workers;
@@ -452,15 +452,15 @@ struct GraphInstance::State {
   std::vector<SemaphoreUse> waits, signals;  // of the next frame, from use_semaphores; with room
   std::vector<OwnCommands> own_commands;     // of the next frame, from use_commands; with room
   FrameDone own_done;
-  std::vector<uint32_t> features;  // of this frame, by Plan::features
-  std::vector<Import> imports;   // of this frame, by slot
-  bool imports_applied = false;  // to the barriers of `sized`
-  uint64_t sized_at = 0;         // frames executed when `sized` was made
-  std::vector<Index> imported;   // resources
+  std::vector<uint32_t> features;              // of this frame, by Plan::features
+  std::vector<Import> imports;                 // of this frame, by slot
+  bool imports_applied = false;                // to the barriers of `sized`
+  uint64_t sized_at = 0;                       // frames executed when `sized` was made
+  std::vector<Index> imported;                 // resources
   std::vector<Index> host_passes, host_slots;  // side by side: a frame looks at the slots alone
   std::vector<Index> choosing_passes;          // whose pipelines features choose
   uint32_t update_slots = 0;
-  std::vector<double> wall_ms;  // by pass, with submit_per_pass
+  std::vector<double> wall_ms;     // by pass, with submit_per_pass
   std::vector<DumpRequest> dumps;  // in the order asked
   std::vector<VkSubmitInfo2> submits;
   std::vector<VkCommandBufferSubmitInfo> submit_commands;

@@ -44,8 +44,10 @@ void decide_features(GraphInstance::State& state, FrameInputs& inputs) {
   for (size_t i = 0; i < plan.features.size(); ++i) {
     const Feature& feature = plan.features[i];
     const bool by_device = feature.capability != Capability::none;
-    if (by_device) state.features[i] = (state.context.device.capabilities & bit(feature.capability)) != 0;
-    else state.features[i] = inputs.features.empty() ? feature.initial : inputs.features[i];
+    if (by_device)
+      state.features[i] = (state.context.device.capabilities & bit(feature.capability)) != 0;
+    else
+      state.features[i] = inputs.features.empty() ? feature.initial : inputs.features[i];
   }
   inputs.features = state.features;
   for (const FeatureCondition& row : plan.feature_conditions) {
@@ -73,7 +75,8 @@ Status check_features(GraphInstance::State& state, FrameInputs& inputs) {
 
 Status check_semaphores(const GraphInstance::State& state, std::span<const SemaphoreUse> uses, std::string_view verb) {
   if (uses.size() > kMaxExternalSemaphores)
-    return wrong("a frame " + std::string(verb) + " " + std::to_string(uses.size()) + " semaphores; at most " + std::to_string(kMaxExternalSemaphores));
+    return wrong("a frame " + std::string(verb) + " " + std::to_string(uses.size()) + " semaphores; at most " +
+                 std::to_string(kMaxExternalSemaphores));
   for (const SemaphoreUse& use : uses) {
     if (use.semaphore == VK_NULL_HANDLE) return wrong("the frame " + std::string(verb) + " no semaphore");
     if (use.import_slot != kNone && use.import_slot >= state.imports.size())
@@ -110,7 +113,8 @@ Status check_inputs(GraphInstance::State& state, FrameInputs& inputs) {
   if (!state.host_passes.empty() && inputs.callbacks == nullptr) return wrong("no callbacks");
   if (!all_called(state, inputs))
     for (size_t i = 0; i < state.host_slots.size(); ++i)
-      if (inputs.callbacks[state.host_slots[i]] == nullptr) return wrong("pass `" + std::string(plan.passes[state.host_passes[i]].name) + "` has no callback");
+      if (inputs.callbacks[state.host_slots[i]] == nullptr)
+        return wrong("pass `" + std::string(plan.passes[state.host_passes[i]].name) + "` has no callback");
   if (inputs.updates.size() < state.update_slots) return wrong("too few updates");
   if (inputs.engine_sets.size() < plan.engine_sets.size()) return wrong("too few engine sets");
   RG_TRY(check_semaphores(state, inputs.waits, "waits for"));

@@ -21,7 +21,9 @@ Status create_shader(const Context& context, Index index, Shaders& shaders) {
 }
 
 using StageInfos = std::vector<VkPipelineShaderStageCreateInfo>;
-std::span<const Index> shaders_of(const Plan& plan, const Pipeline& pipeline) { return plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count); }
+std::span<const Index> shaders_of(const Plan& plan, const Pipeline& pipeline) {
+  return plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count);
+}
 
 StageInfos shader_stages(const Plan& plan, const Pipeline& pipeline, const Shaders& shaders) {
   StageInfos stages;
@@ -87,8 +89,13 @@ void fill_vertex_input(const Plan& plan, const Pipeline& pipeline, GraphicsState
 }
 
 VkStencilOpState stencil_state(const StencilFace& face) {
-  return {static_cast<VkStencilOp>(face.fail), static_cast<VkStencilOp>(face.pass), static_cast<VkStencilOp>(face.depth_fail),
-          static_cast<VkCompareOp>(face.compare), face.read_mask, face.write_mask, face.reference};
+  return {static_cast<VkStencilOp>(face.fail),
+          static_cast<VkStencilOp>(face.pass),
+          static_cast<VkStencilOp>(face.depth_fail),
+          static_cast<VkCompareOp>(face.compare),
+          face.read_mask,
+          face.write_mask,
+          face.reference};
 }
 
 void fill_raster(const Pipeline& pipeline, const Rendering& rendering, GraphicsState& state) {
@@ -129,8 +136,9 @@ void fill_device_state(const Plan& plan, const RasterState& in, const Rendering&
     state.sample_locations.push_back({at.x, at.y});
   state.locations.sType = VK_STRUCTURE_TYPE_PIPELINE_SAMPLE_LOCATIONS_STATE_CREATE_INFO_EXT;
   state.locations.sampleLocationsEnable = VK_TRUE;
-  state.locations.sampleLocationsInfo = {VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT, nullptr, static_cast<VkSampleCountFlagBits>(rendering.samples), {1, 1},
-                                         static_cast<uint32_t>(state.sample_locations.size()), state.sample_locations.data()};
+  state.locations.sampleLocationsInfo = {VK_STRUCTURE_TYPE_SAMPLE_LOCATIONS_INFO_EXT,           nullptr,
+                                         static_cast<VkSampleCountFlagBits>(rendering.samples), {1, 1},
+                                         static_cast<uint32_t>(state.sample_locations.size()),  state.sample_locations.data()};
   state.multisample.pNext = &state.locations;
 }
 
@@ -184,8 +192,8 @@ Result<VkPipeline> create_graphics(const Context& context, const Pipeline& pipel
   info.pDynamicState = &state.dynamic;
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateGraphicsPipelines",
-               pass.name));
+  RG_TRY(check(context.vk().CreateGraphicsPipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle),
+               "vkCreateGraphicsPipelines", pass.name));
   return handle;
 }
 
@@ -195,8 +203,8 @@ Result<VkPipeline> create_compute(const Context& context, const PassObjects& pas
   info.stage = stages[0];
   info.layout = pass.layout.get();
   VkPipeline handle = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle), "vkCreateComputePipelines",
-               pass.name));
+  RG_TRY(check(context.vk().CreateComputePipelines(context.device.device, context.device.pipeline_cache, 1, &info, context.vk().allocator, &handle),
+               "vkCreateComputePipelines", pass.name));
   return handle;
 }
 

@@ -118,10 +118,8 @@ VkDeviceSize place_aliased(const Context& context, const std::vector<Item*>& ite
 Status bind(const Context& context, const Sized& sized, const Item& item, VkDeviceMemory memory) {
   const std::string_view name = context.plan.resources[item.resource].name;
   if (item.is_image)
-    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object], memory, item.offset), "vkBindImageMemory",
-                 name);
-  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object], memory, item.offset), "vkBindBufferMemory",
-               name);
+    return check(context.vk().BindImageMemory(context.device.device, sized.images[item.object], memory, item.offset), "vkBindImageMemory", name);
+  return check(context.vk().BindBufferMemory(context.device.device, sized.buffers[item.object], memory, item.offset), "vkBindBufferMemory", name);
 }
 
 Status map_copies(const Context& context, Sized& sized, const std::vector<Item*>& items, VkDeviceMemory memory) {

@@ -13,7 +13,8 @@
 namespace rg {
 
 // `dedicated`: the image that it is for, and no other; null: whatever is bound to it.
-Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, uint32_t type, std::string_view name, VkImage dedicated = VK_NULL_HANDLE);
+Result<UniqueMemory> allocate_memory(Device::State& device, VkDeviceSize bytes, uint32_t type, std::string_view name,
+                                     VkImage dedicated = VK_NULL_HANDLE);
 
 // Places and binds every image and buffer of `sized`, maps read-back memory, fills report and placements.
 Status place_resources(const Context& context, Sized& sized);

@@ -272,7 +272,8 @@ VkResult VKAPI_CALL signal_semaphore(VkDevice device, const VkSemaphoreSignalInf
 // Timelines must grow, and in this device everything is done when it is submitted: so a wait for what is not submitted yet would never end
 // on a real queue that runs in order.
 void run_submit(NullDevice& null, const VkSubmitInfo2& info) {
-  for (uint32_t i = 0; i < info.waitSemaphoreInfoCount; ++i) check_wait(null, info.pWaitSemaphoreInfos[i].semaphore, info.pWaitSemaphoreInfos[i].value);
+  for (uint32_t i = 0; i < info.waitSemaphoreInfoCount; ++i)
+    check_wait(null, info.pWaitSemaphoreInfos[i].semaphore, info.pWaitSemaphoreInfos[i].value);
   for (uint32_t i = 0; i < info.signalSemaphoreInfoCount; ++i) {
     const auto number = reinterpret_cast<uintptr_t>(info.pSignalSemaphoreInfos[i].semaphore);
     const uint64_t value = info.pSignalSemaphoreInfos[i].value;
@@ -394,8 +395,8 @@ void fill_description(Device::State& state, const NullOptions& options) {
 namespace {
 
 void add_null_queues(NullDevice& null, Device::State& state) {
-  constexpr VkQueueFlags kinds[] = {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT,
-                                    VK_QUEUE_TRANSFER_BIT};
+  constexpr VkQueueFlags kinds[] = {VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT,
+                                    VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT, VK_QUEUE_TRANSFER_BIT};
   const uint32_t counts[] = {1, null.options.compute_queues, null.options.transfer_queues};
   for (uint32_t family = 0; family < 3; ++family)
     for (uint32_t i = 0; i < counts[family]; ++i) {

@@ -75,7 +75,8 @@ void print_struct(NullLine& line, const VkGraphicsPipelineCreateInfo& info) {
     return state == nullptr || state->pNext == nullptr ? VK_STRUCTURE_TYPE_MAX_ENUM : static_cast<const VkBaseInStructure*>(state->pNext)->sType;
   };
   if (info.pDepthStencilState != nullptr && info.pDepthStencilState->depthBoundsTestEnable == VK_TRUE) {
-    line.text(" [depth bounds "), line.real(info.pDepthStencilState->minDepthBounds), line.text(" "), line.real(info.pDepthStencilState->maxDepthBounds);
+    line.text(" [depth bounds "), line.real(info.pDepthStencilState->minDepthBounds), line.text(" "),
+        line.real(info.pDepthStencilState->maxDepthBounds);
     line.text("]");
   }
   if (chained(info.pRasterizationState) == VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT) line.text(" [conservative]");

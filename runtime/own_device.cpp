@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "runtime/capabilities.h"
 #include "runtime/device_state.h"
 #include "runtime/errors.h"
-#include "runtime/capabilities.h"
 #include "runtime/features.h"
 
 namespace rg {

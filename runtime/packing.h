@@ -199,7 +199,8 @@ class Packer {
     }
   }
 
-  // At the bound, then between it and the best, again and again with more effort. The first steps are the same whatever the effort: more is never worse.
+  // At the bound, then between it and the best, again and again with more effort. The first steps are the same whatever the effort: more is never
+  // worse.
   void repair() {
     Ejection ejection(items_, neighbours_);
     std::vector<uint64_t> offsets;
@@ -320,7 +321,8 @@ inline Fit fit(std::span<const Item> items, uint64_t capacity, uint64_t effort) 
 
 // Items conflict where `conflicts` says so, whatever their lives, which then serve as hints. Every pair whose lives meet should be among them:
 // the lower bound assumes it. `known_bound`: what conflicts say beyond that; no less than any item.
-inline Placement pack(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t effort = kDefaultEffort, uint64_t known_bound = 0) {
+inline Placement pack(std::span<const Item> items, const std::vector<Conflict>& conflicts, uint64_t effort = kDefaultEffort,
+                      uint64_t known_bound = 0) {
   return detail::Packer(items, conflicts, false, std::max(lower_bound(items), known_bound), effort).run();
 }
 

@@ -176,13 +176,13 @@ class Search {
 
   int64_t capacity_;
   Neighbours neighbours_;
-  std::vector<uint32_t> begin_, end_;            // sections of an item
-  std::vector<uint32_t> alive_first_, alive_;    // items of a section
-  std::vector<int64_t> bytes_, alignment_;       // by item
-  std::vector<int64_t> lowest_, offset_;         // by item: least offset on what is placed, kPlaced afterwards; the place
-  std::vector<int64_t> floor_, remaining_;       // by section: least offset of what is unplaced, its bytes
-  std::vector<uint32_t> crossing_;               // by time: unplaced items alive before and after
-  std::vector<uint64_t> weight_;                 // by section: failures
+  std::vector<uint32_t> begin_, end_;          // sections of an item
+  std::vector<uint32_t> alive_first_, alive_;  // items of a section
+  std::vector<int64_t> bytes_, alignment_;     // by item
+  std::vector<int64_t> lowest_, offset_;       // by item: least offset on what is placed, kPlaced afterwards; the place
+  std::vector<int64_t> floor_, remaining_;     // by section: least offset of what is unplaced, its bytes
+  std::vector<uint32_t> crossing_;             // by time: unplaced items alive before and after
+  std::vector<uint64_t> weight_;               // by section: failures
   Order by_rank_, rank_;
   std::vector<Undo> trail_;
   uint64_t work_ = 0, work_limit_ = 0;

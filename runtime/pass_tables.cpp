@@ -52,7 +52,8 @@ VkDeviceSize offset(const Context& context, const Sized& sized, Index expr) { re
 
 void fill_draw(const Context& context, const Sized& sized, const Work& work, DrawTable& draw) {
   draw.first = static_cast<uint32_t>(offset(context, sized, work.first));
-  draw.vertex_offset = work.vertex_offset == kNone ? 0 : static_cast<int32_t>(std::clamp<int64_t>(evaluate(context, sized, work.vertex_offset), INT32_MIN, INT32_MAX));
+  draw.vertex_offset =
+      work.vertex_offset == kNone ? 0 : static_cast<int32_t>(std::clamp<int64_t>(evaluate(context, sized, work.vertex_offset), INT32_MIN, INT32_MAX));
   draw.indices_offset = offset(context, sized, work.indices_offset);
   draw.vertex_offsets.clear();
   for (const VertexBuffer& buffer : context.plan.vertex_buffers.subspan(work.first_vertex_buffer, work.vertex_buffer_count))

@@ -15,9 +15,8 @@ bool equal(const Row& a, const Row& b) {
   } else if constexpr (plan_file::PlanNumber<Row> || std::is_same_v<Row, std::string_view>) {
     return a == b;
   } else {
-    return plan_file::each_field(a, [&](const auto&... left) {
-      return plan_file::each_field(b, [&](const auto&... right) { return (true && ... && equal(left, right)); });
-    });
+    return plan_file::each_field(
+        a, [&](const auto&... left) { return plan_file::each_field(b, [&](const auto&... right) { return (true && ... && equal(left, right)); }); });
   }
 }
 template <class Row>
@@ -26,7 +25,9 @@ bool equal(std::span<const Row> a, std::span<const Row> b) {
 }
 
 bool same_code(const Plan& a, const Pipeline& x, const Plan& b, const Pipeline& y) {
-  const auto rows = [](const Plan& plan, const Pipeline& pipeline) { return plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count); };
+  const auto rows = [](const Plan& plan, const Pipeline& pipeline) {
+    return plan.pipeline_shaders.subspan(pipeline.first_shader, pipeline.shader_count);
+  };
   return std::ranges::equal(rows(a, x), rows(b, y), [&](Index left, Index right) {
     const ShaderModule &m = a.shaders[left], &n = b.shaders[right];
     return m.stage == n.stage && std::ranges::equal(m.words, n.words);
@@ -40,7 +41,8 @@ bool same_state(const Plan& a, const Pipeline& x, const Plan& b, const Pipeline&
          equal(a.sample_locations.subspan(x.raster.first_sample_location, x.raster.sample_location_count),
                b.sample_locations.subspan(y.raster.first_sample_location, y.raster.sample_location_count)) &&
          equal(a.blends.subspan(x.first_blend, x.blend_count), b.blends.subspan(y.first_blend, y.blend_count)) &&
-         equal(a.vertex_bindings.subspan(x.first_vertex_binding, x.vertex_binding_count), b.vertex_bindings.subspan(y.first_vertex_binding, y.vertex_binding_count)) &&
+         equal(a.vertex_bindings.subspan(x.first_vertex_binding, x.vertex_binding_count),
+               b.vertex_bindings.subspan(y.first_vertex_binding, y.vertex_binding_count)) &&
          equal(a.vertex_attributes.subspan(x.first_vertex_attribute, x.vertex_attribute_count),
                b.vertex_attributes.subspan(y.first_vertex_attribute, y.vertex_attribute_count));
 }
@@ -51,19 +53,22 @@ Format format_of(const Plan& plan, Index attachment) {
 bool same_attachments(const Plan& a, const Pass& x, const PassObjects& made, const Plan& b, const Pass& y, const PassObjects& before) {
   if (x.rendering == kNone || y.rendering == kNone) return x.rendering == y.rendering;
   const Rendering &r = a.renderings[x.rendering], &s = b.renderings[y.rendering];
-  return made.color_formats == before.color_formats && format_of(a, r.depth) == format_of(b, s.depth) && format_of(a, r.stencil) == format_of(b, s.stencil) &&
-         r.samples == s.samples && r.view_mask == s.view_mask && r.color_count == s.color_count;
+  return made.color_formats == before.color_formats && format_of(a, r.depth) == format_of(b, s.depth) &&
+         format_of(a, r.stencil) == format_of(b, s.stencil) && r.samples == s.samples && r.view_mask == s.view_mask && r.color_count == s.color_count;
 }
 
 // Layouts that are defined alike are compatible: a pipeline made with the one is bound with sets of the other.
 bool same_layout(const Context& a, const Pass& x, const Context& b, const Pass& y) {
-  const auto bindings = [](const Context& context, const Pass& pass) { return context.plan.bindings.subspan(pass.first_binding, pass.binding_count); };
+  const auto bindings = [](const Context& context, const Pass& pass) {
+    return context.plan.bindings.subspan(pass.first_binding, pass.binding_count);
+  };
   const bool same_set = std::ranges::equal(bindings(a, x), bindings(b, y), [](const Binding& m, const Binding& n) {
     return m.binding == n.binding && m.type == n.type && m.stages == n.stages;
   });
   if (!same_set || x.push_bytes != y.push_bytes || x.push_stages != y.push_stages) return false;
   if (x.engine_set == kNone || y.engine_set == kNone) return x.engine_set == y.engine_set;
-  return a.plan.engine_sets[x.engine_set].role == b.plan.engine_sets[y.engine_set].role && a.engine_set_layouts[x.engine_set] == b.engine_set_layouts[y.engine_set];
+  return a.plan.engine_sets[x.engine_set].role == b.plan.engine_sets[y.engine_set].role &&
+         a.engine_set_layouts[x.engine_set] == b.engine_set_layouts[y.engine_set];
 }
 
 }  // namespace

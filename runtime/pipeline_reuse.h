@@ -1,5 +1,5 @@
-// Pipelines that a successor takes over instead of making them again: those whose code, fixed state, attachments and layouts are the same. After an edit of one
-// shader that is all but a few.
+// Pipelines that a successor takes over instead of making them again: those whose code, fixed state, attachments and layouts are the same. After an
+// edit of one shader that is all but a few.
 #pragma once
 
 #include <string_view>

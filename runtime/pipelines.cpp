@@ -23,7 +23,8 @@ Result<UniqueSetLayout> create_set_layout(const Context& context, std::span<cons
   info.bindingCount = static_cast<uint32_t>(rows.size());
   info.pBindings = rows.data();
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateDescriptorSetLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreateDescriptorSetLayout", name));
+  RG_TRY(check(context.vk().CreateDescriptorSetLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreateDescriptorSetLayout",
+               name));
   return UniqueSetLayout(context.vk(), context.device.device, layout);
 }
 
@@ -52,7 +53,8 @@ Status create_layout(const Context& context, const Objects& objects, const Pass&
   info.pushConstantRangeCount = pass.push_bytes != 0 ? 1 : 0;
   info.pPushConstantRanges = &push;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreatePipelineLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreatePipelineLayout", pass.name));
+  RG_TRY(
+      check(context.vk().CreatePipelineLayout(context.device.device, &info, context.vk().allocator, &layout), "vkCreatePipelineLayout", pass.name));
   out.layout = UniquePipelineLayout(context.vk(), context.device.device, layout);
   return Done{};
 }
@@ -91,7 +93,8 @@ struct Wanted {
 };
 
 // The pipelines of a pass, each once; those that the predecessor does not have are wanted.
-Status list_pipelines(const Context& context, Index pass, const PipelineReuse& reuse, Shaders& shaders, PassObjects& out, std::vector<Wanted>& wanted) {
+Status list_pipelines(const Context& context, Index pass, const PipelineReuse& reuse, Shaders& shaders, PassObjects& out,
+                      std::vector<Wanted>& wanted) {
   for (const Index row : rows_of(context, context.plan.passes[pass])) {
     if (row == kNone || find_row(out, row) != nullptr) continue;
     out.pipelines.push_back({row, reuse.find(context.plan.passes[pass], row, out)});
@@ -120,7 +123,8 @@ struct PipelineJobs {
   std::atomic<uint32_t> first_failed = UINT32_MAX;
 };
 
-// Jobs behind one that failed are not begun; those before it are, whoever was faster: so the first of all that fail is always the one that is reported.
+// Jobs behind one that failed are not begun; those before it are, whoever was faster: so the first of all that fail is always the one that is
+// reported.
 void make_wanted(void* data, uint32_t index) {
   PipelineJobs& jobs = *static_cast<PipelineJobs*>(data);
   uint32_t first = jobs.first_failed.load();
@@ -134,7 +138,8 @@ void make_wanted(void* data, uint32_t index) {
     return;
   }
   jobs.results[index] = made.error();
-  while (index < first && !jobs.first_failed.compare_exchange_weak(first, index)) {}
+  while (index < first && !jobs.first_failed.compare_exchange_weak(first, index)) {
+  }
 }
 
 // On the engine's threads, on those that record, or on some that are gone afterwards.
@@ -164,9 +169,10 @@ Status create_attachments(const Context& context, const Pass& pass, PassObjects&
   const Rendering& rendering = context.plan.renderings[pass.rendering];
   out.bind_point = VK_PIPELINE_BIND_POINT_GRAPHICS;
   for (const Attachment& attachment : context.plan.attachments.subspan(rendering.first_color, rendering.color_count))
-    out.color_formats.push_back(attachment.ref.resource == kNone                      ? VK_FORMAT_UNDEFINED
-                                : attachment.view_format != Format::undefined ? static_cast<VkFormat>(attachment.view_format)
-                                                                              : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
+    out.color_formats.push_back(attachment.ref.resource == kNone ? VK_FORMAT_UNDEFINED
+                                : attachment.view_format != Format::undefined
+                                    ? static_cast<VkFormat>(attachment.view_format)
+                                    : static_cast<VkFormat>(context.plan.resources[attachment.ref.resource].format));
   if (!context.device.classic_render_passes) return Done{};
   const Index index = static_cast<Index>(&pass - context.plan.passes.data());
   Result<UniqueRenderPass> render_pass = create_render_pass(context, index, out.part);

@@ -15,6 +15,8 @@
 #include <span>
 #include <string_view>
 
+// Rows that belong together share a line.
+// clang-format off
 namespace rg {
 
 inline constexpr uint32_t kPlanVersion = 1;

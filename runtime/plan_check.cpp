@@ -32,7 +32,7 @@ class ReferenceCheck {
   void check(const Ref& ref) { checker_.optional(ref.resource, plan_.resources.size(), "a table's row", row_, "resource"); }
   // Those of four bytes are numbers of Vulkan, whose enumerations end there.
   template <class Enumerator>
-    requires std::is_enum_v<Enumerator>
+  requires std::is_enum_v<Enumerator>
   void check(const Enumerator& value) {
     checker_.that(sizeof(Enumerator) < 4 || static_cast<uint64_t>(value) <= INT32_MAX, "a table's row", row_, "enumerator");
   }
@@ -79,7 +79,8 @@ void check_resource(const Resource& resource, size_t i, Checker& c) {
   c.that(resource.copies >= 1 && resource.copies <= 64, "resource", i, "copies");
   constexpr uint32_t kAttachments = 0x10 | 0x20;  // colour; depth and stencil
   const bool attachment = resource.kind == ResourceKind::image && resource.usage != 0 && (resource.usage & ~kAttachments) == 0;
-  c.that(!resource.lazy || (attachment && resource.lifetime == Lifetime::transient), "resource", i, "lazy, and no transient that is only an attachment");
+  c.that(!resource.lazy || (attachment && resource.lifetime == Lifetime::transient), "resource", i,
+         "lazy, and no transient that is only an attachment");
   if (resource.kind != ResourceKind::image) return;
   c.that(resource.mips >= 1 && resource.mips <= 16 && resource.layers >= 1 && resource.layers <= 65536, "resource", i, "mips or layers");
   c.that(resource.samples >= 1 && resource.samples <= 64 && (resource.samples & (resource.samples - 1)) == 0, "resource", i, "samples");
@@ -120,7 +121,8 @@ void check_aliases(const Plan& plan, Checker& c) {
     if (acquire.image_barrier != kNone)
       c.range(acquire.image_barrier, acquire.image_barriers, plan.image_barriers.size(), "acquire", i, "image barriers");
     c.index(acquire.queue, plan.queues.size(), "acquire", i, "queue");
-    if (acquire.first_clock != kNone) c.range(acquire.first_clock, static_cast<uint32_t>(2 * plan.queues.size()), plan.alias_clocks.size(), "acquire", i, "clocks");
+    if (acquire.first_clock != kNone)
+      c.range(acquire.first_clock, static_cast<uint32_t>(2 * plan.queues.size()), plan.alias_clocks.size(), "acquire", i, "clocks");
   }
   for (size_t i = 0; i < plan.releases.size(); ++i) {
     c.index(plan.releases[i].resource, plan.resources.size(), "release", i, "resource");
@@ -164,7 +166,8 @@ void check_pipelines(const Plan& plan, Checker& c) {
     c.that(pipeline.shader_count >= 1, "pipeline", i, "no shader");
     c.range(pipeline.first_shader, pipeline.shader_count, plan.pipeline_shaders.size(), "pipeline", i, "shaders");
     c.range(pipeline.first_blend, pipeline.blend_count, plan.blends.size(), "pipeline", i, "blends");
-    c.range(pipeline.raster.first_sample_location, pipeline.raster.sample_location_count, plan.sample_locations.size(), "pipeline", i, "sample locations");
+    c.range(pipeline.raster.first_sample_location, pipeline.raster.sample_location_count, plan.sample_locations.size(), "pipeline", i,
+            "sample locations");
     c.range(pipeline.first_vertex_binding, pipeline.vertex_binding_count, plan.vertex_bindings.size(), "pipeline", i, "vertex bindings");
     c.range(pipeline.first_vertex_attribute, pipeline.vertex_attribute_count, plan.vertex_attributes.size(), "pipeline", i, "vertex attributes");
   }
@@ -278,7 +281,8 @@ void check_periods(const Plan& plan, Checker& c) {
   for (size_t i = 0; i < plan.groups.size(); ++i) {
     Period period(plan);
     for (const ImageBarrier& barrier : plan.image_barriers.subspan(plan.groups[i].first_image, plan.groups[i].image_count)) period.add(barrier.image);
-    for (const BufferBarrier& barrier : plan.buffer_barriers.subspan(plan.groups[i].first_buffer, plan.groups[i].buffer_count)) period.add(barrier.buffer);
+    for (const BufferBarrier& barrier : plan.buffer_barriers.subspan(plan.groups[i].first_buffer, plan.groups[i].buffer_count))
+      period.add(barrier.buffer);
     c.that(period.bearable(), "group", i, "histories of too many different lengths");
   }
   for (size_t i = 0; i < plan.passes.size(); ++i) {

@@ -41,8 +41,8 @@ class Checker {
   std::string fault_;
 };
 
-// Queues, batches, waits, signals, ownership: that the frame can be submitted in listed order and ends on every queue. Needs indices in bounds everywhere
-// but in its own tables.
+// Queues, batches, waits, signals, ownership: that the frame can be submitted in listed order and ends on every queue. Needs indices in bounds
+// everywhere but in its own tables.
 void check_schedule(const Plan& plan, Checker& checker);
 
 }  // namespace rg::plan_check

@@ -200,7 +200,8 @@ void check_ownership(const Plan& plan, Checker& c) {
       releases[resource].push_back(&half);
       continue;
     }
-    const auto release = std::find_if(releases[resource].begin(), releases[resource].end(), [&](const Half* other) { return same_transfer(*other, half); });
+    const auto release =
+        std::find_if(releases[resource].begin(), releases[resource].end(), [&](const Half* other) { return same_transfer(*other, half); });
     c.that(release != releases[resource].end(), "batch", half.batch, "acquires what no batch before it released");
     if (!c.ok()) return;
     (*release)->matched = true;

@@ -41,23 +41,23 @@ inline uint64_t checksum(std::span<const std::byte> bytes) { return checksum({re
 // `each_field(row, f)` calls f with all fields of the row, in order; `field_names<Row>` is their text.
 template <class Row>
 struct Fields;
-#define RG_PLAN_ROW(Row, ...)                                          \
-  template <>                                                          \
-  struct Fields<Row> {                                                 \
+#define RG_PLAN_ROW(Row, ...)                                             \
+  template <>                                                             \
+  struct Fields<Row> {                                                    \
     static constexpr std::string_view kNames = #Row "(" #__VA_ARGS__ ")"; \
-    template <class Value, class F>                                    \
-    static constexpr decltype(auto) visit(Value& row, F&& f) {         \
-      auto& [__VA_ARGS__] = row;                                       \
-      return std::forward<F>(f)(__VA_ARGS__);                          \
-    }                                                                  \
+    template <class Value, class F>                                       \
+    static constexpr decltype(auto) visit(Value& row, F&& f) {            \
+      auto& [__VA_ARGS__] = row;                                          \
+      return std::forward<F>(f)(__VA_ARGS__);                             \
+    }                                                                     \
   }
 
 RG_PLAN_ROW(Expr, op, a, b, value);
 RG_PLAN_ROW(Extent, name, axes, initial, maximum, minimum);
 RG_PLAN_ROW(ClearValue, word);
 RG_PLAN_ROW(Resource, name, kind, lifetime, dimension, format, width, height, depth, mips, layers, samples, aspects, usage, mutable_format, bytes,
-            stride, layout, copies, init, init_value, is_surface, no_alias, concurrent, lazy, import_slot, estimated_bytes, estimated_alignment, estimated_offset,
-            line, file);
+            stride, layout, copies, init, init_value, is_surface, no_alias, concurrent, lazy, import_slot, estimated_bytes, estimated_alignment,
+            estimated_offset, line, file);
 RG_PLAN_ROW(Ref, resource, age);
 RG_PLAN_ROW(Range, aspects, mip, mips, layer, layers);
 RG_PLAN_ROW(Bytes, offset, size);
@@ -103,9 +103,10 @@ RG_PLAN_ROW(Feature, name, values, initial, capability, layout);
 RG_PLAN_ROW(FeatureCondition, condition, feature, values);
 RG_PLAN_ROW(Culled, pass, reason);
 RG_PLAN_ROW(Plan, version, name, variant, variant_count, variant_name, exprs, extents, resources, queues, batches, steps, waits, signals, groups,
-            memory_barriers, image_barriers, buffer_barriers, entry, exit, acquires, releases, alias_clocks, passes, accesses, renderings, attachments,
-            shaders, pipelines, pipeline_shaders, blends, sample_locations, vertex_buffers, vertex_bindings, vertex_attributes, bindings, samplers, params, pass_params, features,
-            pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions, feature_conditions, needs, culled, estimated_heap_bytes);
+            memory_barriers, image_barriers, buffer_barriers, entry, exit, acquires, releases, alias_clocks, passes, accesses, renderings,
+            attachments, shaders, pipelines, pipeline_shaders, blends, sample_locations, vertex_buffers, vertex_bindings, vertex_attributes, bindings,
+            samplers, params, pass_params, features, pass_features, pipeline_choices, transfers, mip_limits, engine_sets, conditions,
+            feature_conditions, needs, culled, estimated_heap_bytes);
 #undef RG_PLAN_ROW
 
 template <class Row, class F>
@@ -113,7 +114,9 @@ constexpr decltype(auto) each_field(Row& row, F&& f) {
   return Fields<std::remove_const_t<Row>>::visit(row, std::forward<F>(f));
 }
 template <class T>
-concept PlanRow = requires { Fields<T>::kNames; };
+concept PlanRow = requires {
+  Fields<T>::kNames;
+};
 template <class T>
 concept PlanNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
@@ -124,7 +127,9 @@ struct TableRow<std::span<const T>> {
   using Row = T;
 };
 template <class T>
-concept PlanTable = requires { typename TableRow<T>::Row; };
+concept PlanTable = requires {
+  typename TableRow<T>::Row;
+};
 
 // ---- the shape of plan.h ------------------------------------------------------------------------------------------
 

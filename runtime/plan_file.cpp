@@ -13,7 +13,7 @@
 namespace rg {
 
 struct PlanFile::State {
-  std::string bytes;                                // names point into it
+  std::string bytes;  // names point into it
   std::vector<std::vector<uint32_t>> modules;
   std::vector<std::shared_ptr<const void>> tables;  // std::vectors of rows
   std::vector<Plan> plans;

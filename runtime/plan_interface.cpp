@@ -51,8 +51,9 @@ void compare_imports(Comparison& c) {
     if (built == nullptr) return;
     c.that(built->name == loaded.name, "import", loaded.name, "stands where `" + std::string(built->name) + "` was");
     c.that(built->kind == loaded.kind, "import", loaded.name, "is another kind of resource");
-    c.that(built->format == loaded.format && built->dimension == loaded.dimension && built->layers == loaded.layers && built->samples == loaded.samples,
-           "import", loaded.name, "has another format or shape");
+    c.that(
+        built->format == loaded.format && built->dimension == loaded.dimension && built->layers == loaded.layers && built->samples == loaded.samples,
+        "import", loaded.name, "has another format or shape");
     c.that(built->layout == loaded.layout && built->stride == loaded.stride, "import", loaded.name, "has elements of another layout");
     // Flags that its creator gave it because the plan asked for them.
     c.that((loaded.usage & ~built->usage) == 0, "import", loaded.name, "is used in ways that it was not created for");
@@ -73,8 +74,8 @@ void compare_callbacks(Comparison& c) {
     if (built == nullptr) return;
     c.that(built->name == loaded.name, "host pass", loaded.name, "stands where `" + std::string(built->name) + "` was");
     c.that(built->kind == loaded.kind, "host pass", loaded.name, "is another kind of pass");
-    c.that(built->push_bytes == loaded.push_bytes && built->push_stages == loaded.push_stages && built->push_layout == loaded.push_layout, "host pass",
-           loaded.name, "has other push constants");
+    c.that(built->push_bytes == loaded.push_bytes && built->push_stages == loaded.push_stages && built->push_layout == loaded.push_layout,
+           "host pass", loaded.name, "has other push constants");
   }
 }
 
@@ -110,7 +111,8 @@ std::string_view pass_name(const Plan& plan, Index pass) { return pass == kNone 
 Status check_interface(const Plan& built, const Plan& loaded) {
   Comparison c(built, loaded);
   if (built.name != loaded.name)
-    return Error{ErrorCode::invalid_argument, "the plan is one of graph `" + std::string(loaded.name) + "`; this program runs `" + std::string(built.name) + "`"};
+    return Error{ErrorCode::invalid_argument,
+                 "the plan is one of graph `" + std::string(loaded.name) + "`; this program runs `" + std::string(built.name) + "`"};
   c.rows(built.extents, loaded.extents, "extent", [](const Extent& a, const Extent& b) { return a.axes == b.axes; });
   if (built.extents.size() > loaded.extents.size()) c.that(false, "extent", built.extents[loaded.extents.size()].name, "is gone");
   compare_imports(c);
@@ -123,7 +125,8 @@ Status check_interface(const Plan& built, const Plan& loaded) {
   compare_conditions(c);
   c.rows(built.features, loaded.features, "feature", [](const Feature& a, const Feature& b) { return a.values == b.values; });
   for (size_t i = 0; i < loaded.features.size() && i < built.features.size(); ++i)
-    c.that(built.features[i].layout == loaded.features[i].layout, "feature", loaded.features[i].name, "has values of other names, or in another order");
+    c.that(built.features[i].layout == loaded.features[i].layout, "feature", loaded.features[i].name,
+           "has values of other names, or in another order");
   c.rows(built.engine_sets, loaded.engine_sets, "engine set", [](const EngineSet& a, const EngineSet& b) { return a.role == b.role; });
   compare_callbacks(c);
   return c.status();

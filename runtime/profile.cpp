@@ -53,16 +53,16 @@ std::string ChromeTrace::json() const {
   std::string text = "{\"displayTimeUnit\": \"ms\", \"traceEvents\": [\n";
   text += "{\"ph\": \"M\", \"pid\": 1, \"name\": \"process_name\", \"args\": {\"name\": \"GPU\"}}";
   for (size_t queue = 0; queue < queues_.size(); ++queue)
-    text += ",\n{\"ph\": \"M\", \"pid\": 1, \"tid\": " + std::to_string(queue + 1) + ", \"name\": \"thread_name\", \"args\": {\"name\": " +
-            json_quoted("queue " + queues_[queue]) + "}}";
+    text += ",\n{\"ph\": \"M\", \"pid\": 1, \"tid\": " + std::to_string(queue + 1) +
+            ", \"name\": \"thread_name\", \"args\": {\"name\": " + json_quoted("queue " + queues_[queue]) + "}}";
   text += ",\n{\"ph\": \"M\", \"pid\": 1, \"tid\": 0, \"name\": \"thread_name\", \"args\": {\"name\": \"frames\"}}";
   for (size_t frame = 0; frame + 1 < frames_us_.size(); ++frame)
-    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": 0, \"name\": \"frame " + std::to_string(frame) + "\", \"ts\": " + json_number(frames_us_[frame]) +
-            ", \"dur\": " + json_number(frames_us_[frame + 1] - frames_us_[frame]) + "}";
+    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": 0, \"name\": \"frame " + std::to_string(frame) +
+            "\", \"ts\": " + json_number(frames_us_[frame]) + ", \"dur\": " + json_number(frames_us_[frame + 1] - frames_us_[frame]) + "}";
   for (const Slice& slice : slices_)
-    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": " + std::to_string(slice.queue + 1) + ", \"name\": " + json_quoted(slice.name) + ", \"cat\": " +
-            json_quoted(slice.module.empty() ? "pass" : slice.module) + ", \"ts\": " + json_number(slice.begin_us) + ", \"dur\": " + json_number(slice.duration_us) +
-            ", \"args\": " + statistics_json(slice.statistics) + "}";
+    text += ",\n{\"ph\": \"X\", \"pid\": 1, \"tid\": " + std::to_string(slice.queue + 1) + ", \"name\": " + json_quoted(slice.name) +
+            ", \"cat\": " + json_quoted(slice.module.empty() ? "pass" : slice.module) + ", \"ts\": " + json_number(slice.begin_us) +
+            ", \"dur\": " + json_number(slice.duration_us) + ", \"args\": " + statistics_json(slice.statistics) + "}";
   return text + "\n]}\n";
 }
 

@@ -27,15 +27,14 @@ void write_timestamp(const FrameRecording& r, VkPipelineStageFlags2 stage, Index
 
 void bind_engine_set(const FrameRecording& r, const Pass& pass, const PassObjects& objects) {
   const auto role = static_cast<uint32_t>(r.state.context.plan.engine_sets[pass.engine_set].role);
-  r.vk.CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0,
-                                             nullptr);
+  r.vk.CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), role, 1, &r.inputs.engine_sets[pass.engine_set], 0, nullptr);
 }
 
 VkDescriptorSet bind_pass_set(const FrameRecording& r, const PassObjects& objects, PassTable& table) {
   const VkDescriptorSet set = table.set.sets[row_of(r.frame, table.set.period)];
   for (size_t i = 0; i < table.set.block_offsets.size(); ++i) table.set.dynamic_offsets[i] = r.section + table.set.block_offsets[i];
   r.vk.CmdBindDescriptorSets(r.commands, objects.bind_point, objects.layout.get(), 1, 1, &set,
-                                             static_cast<uint32_t>(table.set.dynamic_offsets.size()), table.set.dynamic_offsets.data());
+                             static_cast<uint32_t>(table.set.dynamic_offsets.size()), table.set.dynamic_offsets.data());
   return set;
 }
 
@@ -216,12 +215,9 @@ void record_pass(FrameRecording& r, Index index) {
 }
 
 void wait_for_all(const FrameRecording& r) {
-  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                 nullptr,
-                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+  const VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,   nullptr,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                 VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
   VkDependencyInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
   info.memoryBarrierCount = 1;
@@ -235,8 +231,14 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
   const bool can_reset = context.device.host_query_reset || queue == context.plan.batches[0].queue;
   const bool timed = can_reset && row.timestamp_bits != 0 && (context.device.host_query_reset || (row.flags & VK_QUEUE_COMPUTE_BIT) != 0);
   const bool counted = can_reset && (row.flags & VK_QUEUE_GRAPHICS_BIT) != 0;
-  return {state, inputs, commands, state.frame, timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
-          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE), 0, context.vk(),
+  return {state,
+          inputs,
+          commands,
+          state.frame,
+          timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
+          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE),
+          0,
+          context.vk(),
           static_cast<uint32_t>(state.frame % context.frames_in_flight * state.sized->ring.section)};
 }
 

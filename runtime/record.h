@@ -14,8 +14,8 @@ struct FrameRecording {
   VkQueryPool statistics = VK_NULL_HANDLE;  // null: none
   uint32_t module = 0;                      // whose label is open; 0: none
   const DeviceFunctions& vk;
-  uint32_t section = 0;                     // of the parameter ring
-  bool in_rendering = false;                // passes of one rendering follow
+  uint32_t section = 0;       // of the parameter ring
+  bool in_rendering = false;  // passes of one rendering follow
 };
 
 // For a command buffer of a queue of the plan, with the queries that this queue can write.

@@ -237,8 +237,7 @@ void list_framebuffer_views(const Rendering& plan, RenderingTable& table) {
       clear.depthStencil.stencil = table.attachments[plan.color_count + 1].clearValue.depthStencil.stencil;
     add(table.views[plan.color_count], clear);
   }
-  for (uint32_t i = 0; i < plan.color_count; ++i)
-    add(table.resolve_views[i], {});
+  for (uint32_t i = 0; i < plan.color_count; ++i) add(table.resolve_views[i], {});
   if (plan.depth != kNone) add(table.resolve_views[plan.color_count], {});
   table.framebuffer_handles.resize(table.framebuffer_views.size());
 }

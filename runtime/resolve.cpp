@@ -13,8 +13,8 @@ void evaluate_all(const Context& context, Sized& sized) {
 
 namespace {
 
-// As evaluate() of plan.h where that is defined. A plan from a file may ask for more: sums and products then wrap, as unsigned numbers do, and the sizes
-// that come out are refused or clamped like any others.
+// As evaluate() of plan.h where that is defined. A plan from a file may ask for more: sums and products then wrap, as unsigned numbers do, and the
+// sizes that come out are refused or clamped like any others.
 int64_t apply(ExprOp op, int64_t a, int64_t b) {
   const auto x = static_cast<uint64_t>(a), y = static_cast<uint64_t>(b);
   switch (op) {

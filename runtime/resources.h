@@ -16,7 +16,8 @@ struct Carried {
   const Plan& plan;
   const Sized& sized;
   const Context& context;
-  // Between frames both plans have the resource with one owner, and what has to change between them is a layout of whole boundary rows of the new one.
+  // Between frames both plans have the resource with one owner, and what has to change between them is a layout of whole boundary rows of the new
+  // one.
   bool may_carry(const Context& now, Index resource, Index before) const;
 };
 // The layout of a subresource between two frames of a plan.

@@ -8,7 +8,8 @@
 
 namespace rg {
 
-// What kind of failure it is: decides what a caller can do. `device_lost` is final, `out_of_date` wants another swapchain, the others leave things as they were.
+// What kind of failure it is: decides what a caller can do. `device_lost` is final, `out_of_date` wants another swapchain, the others leave things as
+// they were.
 enum class ErrorCode : uint8_t { unsupported, out_of_memory, device_lost, out_of_date, invalid_plan, invalid_argument, io, driver };
 // A failure: what failed, on what, and the way out, in one line for a person.
 struct Error {

@@ -100,8 +100,8 @@ Result<CommandPool> create_pool(const Context& context, uint32_t family) {
   info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
   info.queueFamilyIndex = family;
   VkCommandPool pool = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateCommandPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateCommandPool",
-               context.plan.name));
+  RG_TRY(
+      check(context.vk().CreateCommandPool(context.device.device, &info, context.vk().allocator, &pool), "vkCreateCommandPool", context.plan.name));
   return CommandPool{family, UniqueCommandPool(context.vk(), context.device.device, pool), {}, 0};
 }
 

@@ -63,11 +63,12 @@ std::string SpectrumProfile::json() const {
     std::vector<std::string> masks;
     for (const auto& [mask, groups] : scene.groups)
       masks.push_back("{\"features\": " + features_json(kernels_, mask) + ", \"tiles\": " + std::to_string(groups) + "}");
-    scenes.push_back("{\"name\": " + json_quoted(scene.name) + ", \"weight\": " + json_number(scene.weight) + ", \"masks\": " + list_json(masks, "  ") + "}");
+    scenes.push_back("{\"name\": " + json_quoted(scene.name) + ", \"weight\": " + json_number(scene.weight) +
+                     ", \"masks\": " + list_json(masks, "  ") + "}");
   }
   for (const auto& [set, ms] : costs()) rows.push_back("{\"features\": " + features_json(kernels_, set) + ", \"ms\": " + json_number(ms, 6) + "}");
-  std::string text = "{\n \"schema\": \"rgc-spectrum-1\",\n \"spectrum\": " + json_quoted(kernels_.name) + ",\n \"features\": " + features_json(kernels_, ~0u) +
-                     ",\n \"scenes\": " + list_json(scenes, " ");
+  std::string text = "{\n \"schema\": \"rgc-spectrum-1\",\n \"spectrum\": " + json_quoted(kernels_.name) +
+                     ",\n \"features\": " + features_json(kernels_, ~0u) + ",\n \"scenes\": " + list_json(scenes, " ");
   if (!rows.empty()) text += ",\n \"costs\": " + list_json(rows, " ");
   return text + "\n}\n";
 }

@@ -17,7 +17,7 @@ namespace rg {
 struct SpectrumKernels {
   std::string_view name = {};
   std::span<const std::string_view> features = {};  // by bit of a mask
-  std::span<const uint32_t> sets = {};               // of features, by kernel, in the order in which they are tried
+  std::span<const uint32_t> sets = {};              // of features, by kernel, in the order in which they are tried
 };
 // Of `frame::spectrum::NAME`.
 template <class Generated>
@@ -37,9 +37,9 @@ class SpectrumProfile {
   void add_scene(std::string_view name, double weight, std::span<const uint32_t> masks);
   // `kernel` ran `groups` groups in `ms`; times of one kernel are added up by weight before they are divided.
   void add_time(size_t kernel, double weight, double ms, uint64_t groups);
-  // ... in the last finished frame of `graph`, where it is a kernel of `pass` and the groups had `masks`. Of use where times of passes are their own: with
-  // GraphOptions::submit_per_pass, or where the driver's timestamps separate them. A kernel is best timed on every group that it can serve, in a frame
-  // in which all groups are forced to its features: its mean time is then what it costs whoever is given to it.
+  // ... in the last finished frame of `graph`, where it is a kernel of `pass` and the groups had `masks`. Of use where times of passes are their own:
+  // with GraphOptions::submit_per_pass, or where the driver's timestamps separate them. A kernel is best timed on every group that it can serve, in a
+  // frame in which all groups are forced to its features: its mean time is then what it costs whoever is given to it.
   void add_time(size_t kernel, double weight, GraphInstance& graph, std::string_view pass, std::span<const uint32_t> masks);
 
   // Milliseconds a thousand groups, by kernel; a kernel that ran nothing has none.

@@ -66,7 +66,8 @@ class SubmitBuilder {
   void batch(Index b, const VkCommandBufferSubmitInfo* commands, uint32_t count) {
     const Batch& batch = plan_.batches[b];
     plan_waits(batch);
-    if (state_.first_batch_of_queue[batch.queue] == b) state_.submit_waits.insert(state_.submit_waits.end(), state_.entry_waits.begin(), state_.entry_waits.end());
+    if (state_.first_batch_of_queue[batch.queue] == b)
+      state_.submit_waits.insert(state_.submit_waits.end(), state_.entry_waits.begin(), state_.entry_waits.end());
     external_waits(b);
     plan_signals(batch);
     external_signals(b);
@@ -76,7 +77,9 @@ class SubmitBuilder {
     finish(info);
   }
 
-  bool needs_lead_out() const { return std::any_of(inputs_.signals.begin(), inputs_.signals.end(), [&](const SemaphoreUse& use) { return at_end(use); }); }
+  bool needs_lead_out() const {
+    return std::any_of(inputs_.signals.begin(), inputs_.signals.end(), [&](const SemaphoreUse& use) { return at_end(use); });
+  }
   // Queue 0 waits for all queues and says so.
   void lead_out() {
     for (size_t q = 0; q + 1 < state_.timelines->size(); ++q)
@@ -261,8 +264,10 @@ uint32_t queue_of_family(const Device::State& device, uint32_t family) {
 
 Status submit_part(GraphInstance::State& state, uint32_t queue, size_t part) {
   const bool watched = !state.prologue.fences.empty();
-  const std::span<const VkSemaphoreSubmitInfo> waits = part == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
-  RG_TRY(submit_one(state, {queue, state.prologue.commands[part], part != 0, waits, watched ? state.prologue.fences[queue].get() : VkFence(VK_NULL_HANDLE)}));
+  const std::span<const VkSemaphoreSubmitInfo> waits =
+      part == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
+  RG_TRY(submit_one(
+      state, {queue, state.prologue.commands[part], part != 0, waits, watched ? state.prologue.fences[queue].get() : VkFence(VK_NULL_HANDLE)}));
   if (watched) state.prologue.fenced[queue] = true;
   state.prologue.done.values[0] = state.submitted.values[0];
   return Done{};
@@ -273,7 +278,8 @@ Status submit_parts(GraphInstance::State& state, const Sized& sized) {
   const Context& context = state.context;
   for (size_t part = 0; part < context.queues.families.size(); ++part) {
     const VkCommandBuffer commands = state.prologue.commands[part];
-    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, state.prologue.pools[part].pool.get(), 0), "vkResetCommandPool", context.plan.name));
+    RG_TRY(check(context.vk().ResetCommandPool(context.device.device, state.prologue.pools[part].pool.get(), 0), "vkResetCommandPool",
+                 context.plan.name));
     RG_TRY(begin_commands(context, commands));
     const bool recorded = part == 0 ? record_prologue(context, sized, commands, state.frame)
                                     : record_first_owner(context, sized, commands, state.frame, context.queues.families[part]);

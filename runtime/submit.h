@@ -5,8 +5,8 @@
 
 namespace rg {
 
-// Submits the frame that `slot` holds: a VkSubmitInfo2 a batch, consecutive batches of one VkQueue in one call. On failure either nothing was submitted,
-// or `state.broken` is set.
+// Submits the frame that `slot` holds: a VkSubmitInfo2 a batch, consecutive batches of one VkQueue in one call. On failure either nothing was
+// submitted, or `state.broken` is set.
 Status submit_frame(GraphInstance::State& state, const FrameInputs& inputs, FrameSlot& slot);
 
 // One command buffer on a device queue; advances the instance's own timeline, after waiting for what it was submitted last where `chained`.

@@ -164,7 +164,8 @@ Status remake(Swapchain::State& state, VkExtent2D window) {
   if (extent.width == 0 || extent.height == 0) return Done{};
   const VkSwapchainCreateInfoKHR info = swapchain_info(state, surface, extent);
   VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-  RG_TRY(check(state.device.vk.CreateSwapchainKHR(state.device.device, &info, state.device.vk.allocator, &swapchain), "vkCreateSwapchainKHR", "swapchain"));
+  RG_TRY(check(state.device.vk.CreateSwapchainKHR(state.device.device, &info, state.device.vk.allocator, &swapchain), "vkCreateSwapchainKHR",
+               "swapchain"));
   state.swapchain = UniqueSwapchain(state.device.vk, state.device.device, swapchain);
   RG_TRY(create_image_objects(state));
   state.extent = extent;

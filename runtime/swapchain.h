@@ -2,7 +2,8 @@
 //
 //   acquire(window size) -> Picture ──> Imports, GraphInstance::use_semaphores ──> execute ──> present(picture)
 //
-// Threading: one thread a swapchain at a time. Cost: acquire and present make one Vulkan call each and allocate nothing, unless the window has changed.
+// Threading: one thread a swapchain at a time. Cost: acquire and present make one Vulkan call each and allocate nothing, unless the window has
+// changed.
 #pragma once
 
 #include <vulkan/vulkan_core.h>
@@ -21,7 +22,7 @@ struct SwapchainOptions {
   VkFormat format = VK_FORMAT_B8G8R8A8_UNORM;  // must be that of the graph's surface; an error where the surface cannot show it
   VkColorSpaceKHR color_space = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
   VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;  // what the plan's surface wants: Plan::resources[...].usage
-  bool vsync = true;         // false: mailbox or immediate where the surface has them
+  bool vsync = true;                                              // false: mailbox or immediate where the surface has them
   uint32_t min_images = 3;
 };
 
@@ -29,9 +30,10 @@ struct SwapchainOptions {
 struct Picture {
   ImportedImage image = {};  // null: nothing to draw
   VkExtent2D extent = {0, 0};
-  bool changed = false;      // another size than the picture before: resize what depends on it first
+  bool changed = false;  // another size than the picture before: resize what depends on it first
   uint32_t index = 0;
-  // For GraphInstance::use_semaphores: the image may be written after `acquired`, and is presented after `drawn`. The slot is the surface's import slot.
+  // For GraphInstance::use_semaphores: the image may be written after `acquired`, and is presented after `drawn`. The slot is the surface's import
+  // slot.
   std::array<SemaphoreUse, 1> acquired = {}, drawn = {};
   // Whether there is something to draw into.
   explicit operator bool() const { return image.image != VK_NULL_HANDLE; }
@@ -47,8 +49,8 @@ class Swapchain {
   Swapchain& operator=(Swapchain&&) noexcept;
   ~Swapchain();  // waits for the device
 
-  // `window`: its size in pixels now, for surfaces that leave the choice to the program. Makes the images anew where the size changed or the surface went out of
-  // date (this waits for the device). A surface that is lost: `out_of_date`; make another.
+  // `window`: its size in pixels now, for surfaces that leave the choice to the program. Makes the images anew where the size changed or the surface
+  // went out of date (this waits for the device). A surface that is lost: `out_of_date`; make another.
   Result<Picture> acquire(VkExtent2D window, Index import_slot = kNone);
   // After a frame that signals `drawn`. An out-of-date surface is no error: the next acquire makes the images anew.
   Status present(const Picture& picture);

@@ -16,8 +16,8 @@ Result<UniqueSemaphore> create_timeline(const Context& context) {
   info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
   info.pNext = &type;
   VkSemaphore semaphore = VK_NULL_HANDLE;
-  RG_TRY(check(context.vk().CreateSemaphore(context.device.device, &info, context.vk().allocator, &semaphore), "vkCreateSemaphore",
-               context.plan.name));
+  RG_TRY(
+      check(context.vk().CreateSemaphore(context.device.device, &info, context.vk().allocator, &semaphore), "vkCreateSemaphore", context.plan.name));
   return UniqueSemaphore(context.vk(), context.device.device, semaphore);
 }
 
@@ -54,7 +54,8 @@ Status wait_for_semaphores(const Context& context, uint32_t count, const VkSemap
 Status wait_for_fences(const Context& context, const std::vector<UniqueFence>& fences, const std::vector<bool>& fenced) {
   for (size_t i = 0; i < fences.size(); ++i) {
     const VkFence fence = fences[i].get();
-    if (fenced[i]) RG_TRY(check(context.vk().WaitForFences(context.device.device, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences", context.plan.name));
+    if (fenced[i])
+      RG_TRY(check(context.vk().WaitForFences(context.device.device, 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences", context.plan.name));
   }
   return Done{};
 }

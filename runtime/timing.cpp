@@ -39,8 +39,8 @@ struct Stamp {
 // Rows of queries whose results exist; the rest stays unavailable.
 template <class Row>
 bool read_queries(const Context& context, VkQueryPool pool, VkQueryResultFlags flags, std::vector<Row>& rows) {
-  const VkResult result = context.vk().GetQueryPoolResults(context.device.device, pool, 0, static_cast<uint32_t>(rows.size()), rows.size() * sizeof(Row),
-                                                           rows.data(), sizeof(Row), VK_QUERY_RESULT_64_BIT | flags);
+  const VkResult result = context.vk().GetQueryPoolResults(context.device.device, pool, 0, static_cast<uint32_t>(rows.size()),
+                                                           rows.size() * sizeof(Row), rows.data(), sizeof(Row), VK_QUERY_RESULT_64_BIT | flags);
   return result == VK_SUCCESS || result == VK_NOT_READY;
 }
 

@@ -66,7 +66,8 @@ void add_copies(const ImagePair& pair, TransferTable& table) {
   for (uint32_t i = 0; i < pair.mips; ++i) {
     const VkExtent3D src = mip_extent(pair.src_extent, pair.src.baseMipLevel + i), dst = mip_extent(pair.dst_extent, pair.dst.baseMipLevel + i);
     const VkExtent3D extent{common_side(src.width, pair.src_format.block_width, dst.width, pair.dst_format.block_width),
-                            common_side(src.height, pair.src_format.block_height, dst.height, pair.dst_format.block_height), std::min(src.depth, dst.depth)};
+                            common_side(src.height, pair.src_format.block_height, dst.height, pair.dst_format.block_height),
+                            std::min(src.depth, dst.depth)};
     table.copies.push_back({layers_at(pair.src, i), {}, layers_at(pair.dst, i), {}, extent});
   }
 }

@@ -46,8 +46,8 @@ bool layouts_differ(const GraphInstance::State& state, const GraphInstance::Stat
     if (!state.sized->carried[row.ref.resource] || row.discard || row.layout == Layout::undefined) continue;
     const VkImageSubresourceRange range = image_range(state.context, *state.sized, row.ref.resource, row.range);
     const Index before = find_kept(other, state.sized->kept[row.ref.resource]);
-    if (range.levelCount != 0 && layout_between_frames(other.context.plan, {before, row.ref.age}, range.aspectMask, range.baseMipLevel,
-                                                       range.baseArrayLayer) != row.layout)
+    if (range.levelCount != 0 &&
+        layout_between_frames(other.context.plan, {before, row.ref.age}, range.aspectMask, range.baseMipLevel, range.baseArrayLayer) != row.layout)
       return true;
   }
   return false;

@@ -46,8 +46,9 @@ void TypedFrame::let_go() {
 Status TypedFrame::reload(const PlanFile& file) {
   const Plan* plan = file.find(built_->name, built_->variant_name);
   if (plan == nullptr)
-    return Error{ErrorCode::invalid_argument, "the plan file has no plan of graph `" + std::string(built_->name) + "`" +
-                                                  (built_->variant_name.empty() ? "" : ", configuration `" + std::string(built_->variant_name) + "`")};
+    return Error{ErrorCode::invalid_argument,
+                 "the plan file has no plan of graph `" + std::string(built_->name) + "`" +
+                     (built_->variant_name.empty() ? "" : ", configuration `" + std::string(built_->variant_name) + "`")};
   RG_TRY(check_interface(*built_, *plan));
   return replace(*plan, options_, file);
 }
@@ -71,8 +72,8 @@ Index TypedFrame::resource_now(Index built) const {
 }
 
 Error TypedFrame::gone(std::string_view kind, std::string_view name) const {
-  return Error{ErrorCode::invalid_argument,
-               "graph `" + std::string(built_->name) + "`: the plan that runs now has no " + std::string(kind) + (name.empty() ? "" : " `" + std::string(name) + "`")};
+  return Error{ErrorCode::invalid_argument, "graph `" + std::string(built_->name) + "`: the plan that runs now has no " + std::string(kind) +
+                                                (name.empty() ? "" : " `" + std::string(name) + "`")};
 }
 
 namespace {

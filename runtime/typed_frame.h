@@ -1,7 +1,7 @@
 // What the frame class of every graph offers beside its typed calls: base of the generated classes, see docs/generated.md.
 //
-// Passes and resources are named by the constants of the generated header (`frame::pass::x`, `frame::resource::y`). After a reload they are looked up by
-// name in the plan that runs now, so they keep their meaning.
+// Passes and resources are named by the constants of the generated header (`frame::pass::x`, `frame::resource::y`). After a reload they are looked up
+// by name in the plan that runs now, so they keep their meaning.
 #pragma once
 
 #include <optional>
@@ -17,9 +17,10 @@ namespace rg {
 // Ownership and threads as GraphInstance. Not copyable; an object that was moved from is only destroyed or assigned to.
 class TypedFrame {
  public:
-  // The next frame runs the plan of this graph and configuration in `file`, which is kept. History and persistent resources of the same name and shape go
-  // on. Refused whole, with the reason, where the program would have to be compiled again (see check_interface) or an object cannot be made: the old plan
-  // goes on. Waits for nothing; the instance before is destroyed when its frames are done. PassInfo changes: what an engine built from it, it builds again.
+  // The next frame runs the plan of this graph and configuration in `file`, which is kept. History and persistent resources of the same name and
+  // shape go on. Refused whole, with the reason, where the program would have to be compiled again (see check_interface) or an object cannot be made:
+  // the old plan goes on. Waits for nothing; the instance before is destroyed when its frames are done. PassInfo changes: what an engine built from
+  // it, it builds again.
   Status reload(const PlanFile& file);
   // The same plan with other threads, frames in flight or debugging; contents go on. Extents stay; engine set layouts too where `options` has none.
   Status reconfigure(GraphOptions options);
@@ -91,9 +92,9 @@ class TypedFrame {
   Error gone(std::string_view kind, std::string_view name) const;
 
   const Plan* built_;
-  GraphOptions options_;                                   // of the last creation, pointing into what follows
+  GraphOptions options_;  // of the last creation, pointing into what follows
   std::vector<VkDescriptorSetLayout> engine_set_layouts_;
-  std::optional<PlanFile> file_;                           // of the plan that runs now; none: the generated one
+  std::optional<PlanFile> file_;  // of the plan that runs now; none: the generated one
   GraphInstance instance_;
   std::optional<Retired> retired_;
 };

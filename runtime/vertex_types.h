@@ -37,8 +37,7 @@ struct Normalized {
   Int value[N] = {};
   constexpr Normalized() = default;
   template <class... Numbers>
-    requires(sizeof...(Numbers) == N)
-  constexpr Normalized(Numbers... numbers) : value{normalized<Int>(static_cast<float>(numbers))...} {}
+  requires(sizeof...(Numbers) == N) constexpr Normalized(Numbers... numbers) : value{normalized<Int>(static_cast<float>(numbers))...} {}
 };
 
 // 16-bit floats: `Half<2>` is rg16f.
@@ -47,8 +46,7 @@ struct Half {
   uint16_t bits[N] = {};
   constexpr Half() = default;
   template <class... Numbers>
-    requires(sizeof...(Numbers) == N)
-  constexpr Half(Numbers... numbers) : bits{half_bits(static_cast<float>(numbers))...} {}
+  requires(sizeof...(Numbers) == N) constexpr Half(Numbers... numbers) : bits{half_bits(static_cast<float>(numbers))...} {}
 };
 
 // Integer formats: `Integers<uint8_t, 4>` is rgba8ui.
@@ -62,7 +60,8 @@ struct Rgb10a2 {
   uint32_t bits = 0;
   constexpr Rgb10a2() = default;
   constexpr Rgb10a2(float r, float g, float b, float a)
-      : bits(normalized<uint32_t>(r, 1023) | normalized<uint32_t>(g, 1023) << 10 | normalized<uint32_t>(b, 1023) << 20 | normalized<uint32_t>(a, 3) << 30) {}
+      : bits(normalized<uint32_t>(r, 1023) | normalized<uint32_t>(g, 1023) << 10 | normalized<uint32_t>(b, 1023) << 20 |
+             normalized<uint32_t>(a, 3) << 30) {}
 };
 
 // bgra8: given as red, green, blue, alpha.

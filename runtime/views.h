@@ -14,7 +14,7 @@ struct ViewRequest {
   Format format = Format::undefined;  // undefined: the image's own
   VkImageUsageFlags usage = 0;
   uint32_t slice = 0, slices = 0;  // of a 3D image as an attachment; 0 slices: the whole
-  bool all_aspects = false;  // attachments of a depth and stencil image share one view
+  bool all_aspects = false;        // attachments of a depth and stencil image share one view
 };
 
 // Creates one view for each physical copy, or a slot for views of an import. `exists` is false where the range has vanished.

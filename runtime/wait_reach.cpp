@@ -51,11 +51,13 @@ std::vector<Set> within_frame(const Plan& plan) {
 
 }  // namespace
 
-WaitReach::WaitReach(const Plan& plan) : batch_of_pass_(plan.passes.size(), kNone), batch_of_group_(plan.groups.size(), kNone), after_(within_frame(plan)) {
+WaitReach::WaitReach(const Plan& plan)
+    : batch_of_pass_(plan.passes.size(), kNone), batch_of_group_(plan.groups.size(), kNone), after_(within_frame(plan)) {
   for (Index b = 0; b < plan.batches.size(); ++b) {
     const Batch& batch = plan.batches[b];
     queue_of_.push_back(batch.queue);
-    for (const Step& step : plan.steps.subspan(batch.first_step, batch.step_count)) (step.kind == StepKind::pass ? batch_of_pass_ : batch_of_group_)[step.index] = b;
+    for (const Step& step : plan.steps.subspan(batch.first_step, batch.step_count))
+      (step.kind == StepKind::pass ? batch_of_pass_ : batch_of_group_)[step.index] = b;
   }
   const std::vector<Set> within = after_;
   std::vector<Set> before(plan.batches.size(), Set(plan.batches.size()));  // of the frame before

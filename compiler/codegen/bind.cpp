@@ -69,7 +69,8 @@ bool may_write(const dsl::Pass& pass, dsl::Role role) {
 
 StencilFace convert(const dsl::StencilFace& face, bool writes) {
   const auto op = [](dsl::StencilOp each) { return static_cast<StencilOp>(each); };  // in one order
-  return {op(face.fail), op(face.pass), op(face.depth_fail), static_cast<Compare>(face.compare), face.read_mask, writes ? face.write_mask : 0u, face.reference};
+  return {op(face.fail), op(face.pass), op(face.depth_fail), static_cast<Compare>(face.compare), face.read_mask, writes ? face.write_mask : 0u,
+          face.reference};
 }
 
 // Bits of the capabilities that the state of the pass uses where its features have these values.
@@ -290,7 +291,8 @@ Index add_feature(Binder& b, const dsl::Feature& feature) {
   const auto found = std::find_if(b.plan.features.begin(), b.plan.features.end(), same);
   if (found != b.plan.features.end()) return static_cast<Index>(found - b.plan.features.begin());
   const Capability capability = plan_capability(feature.capability);
-  b.plan.features.push_back({intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability, layout_of_values(feature)});
+  b.plan.features.push_back(
+      {intern(feature.name), static_cast<uint32_t>(feature.values.size()), feature.initial, capability, layout_of_values(feature)});
   return static_cast<Index>(b.plan.features.size() - 1);
 }
 
@@ -403,8 +405,7 @@ Capability plan_capability(dsl::Capability capability) {
   return Capability::none;
 }
 
-void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle,
-                    size_t configuration) {
+void attach_shaders(PlanData& plan, const dsl::Program& program, dsl::GraphId graph_id, const ShaderBundle& bundle, size_t configuration) {
   const dsl::Graph& graph = program.graphs[graph_id];
   RG_CHECK(plan.program_pass.size() == plan.passes.size(), "the plan does not say which pass of the program each pass is");
   clear_tables(plan);

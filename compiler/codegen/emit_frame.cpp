@@ -89,7 +89,10 @@ Row resource_row(const ResourceFigures& resource) {
 Row shader_row(const ShaderStatistics& s) {
   Row row;
   row.number("instructions", s.instructions).number("alu", s.alu).number("samples", s.samples).number("loads", s.loads).number("stores", s.stores);
-  return row.number("atomics", s.atomics).number("branches", s.branches).number("shared_bytes", s.shared_bytes).number("live_scalars", s.live_scalars);
+  return row.number("atomics", s.atomics)
+      .number("branches", s.branches)
+      .number("shared_bytes", s.shared_bytes)
+      .number("live_scalars", s.live_scalars);
 }
 
 std::string without_break(std::string text) {
@@ -201,7 +204,9 @@ void record_function(CppWriter& out) {
 
 void frame_class(CppWriter& out, const FrameApi& api) {
   const std::string& name = api.class_name;
-  out.line("// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are values and");
+  out.line(
+      "// The graph on a device: its memory, its objects and its frames. Moved, not copied; one thread at a time; the device outlives it. Errors are "
+      "values and");
   out.line("// leave it as it was, but a lost device, which stays lost. Destruction waits for its frames and for nothing else.");
   out.line("class " + name + " : public rg::TypedFrame {");
   out.line(" public:");
@@ -265,7 +270,8 @@ void import_rows(CppWriter& out, const FrameApi& api) {
   out.line("  const rg::Import import_rows[] = {");
   for (const ApiMember& member : api.imports) {
     const char* kind = member.type.find("Image") != std::string::npos ? "image" : "buffer";
-    out.line(member.type.starts_with(kUnusedImport) ? "      {},  // " + member.name : std::string("      {.") + kind + " = imports." + member.name + ".value},");
+    out.line(member.type.starts_with(kUnusedImport) ? "      {},  // " + member.name
+                                                    : std::string("      {.") + kind + " = imports." + member.name + ".value},");
   }
   out.line("  };");
   const auto unused = [](const ApiMember& member) { return member.type.starts_with(kUnusedImport); };

@@ -38,7 +38,9 @@ Row raster_row(const RasterState& state) {
   row.flag("conservative", state.conservative);
   slice(row, "first_sample_location", state.first_sample_location, "sample_location_count", state.sample_location_count);
   if (!state.stencil_test) return row;
-  return row.flag("stencil_test", true).nested("stencil_front", stencil_row(state.stencil_front)).nested("stencil_back", stencil_row(state.stencil_back));
+  return row.flag("stencil_test", true)
+      .nested("stencil_front", stencil_row(state.stencil_front))
+      .nested("stencil_back", stencil_row(state.stencil_back));
 }
 
 Row blend_row(const ColorBlend& blend) {
@@ -92,7 +94,8 @@ void PlanEmitter::rendering() {
     Row row;
     row.nested("ref", ref(a.ref)).nested("range", range(a.range)).number("slice", a.slice).number("slices", a.slices);
     if (a.view_format != Format::undefined) row.field("view_format", format_text(a.view_format));
-    row.field("layout", layout_text(a.layout)).field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
+    row.field("layout", layout_text(a.layout))
+        .field("load", enum_text("LoadOp", static_cast<size_t>(a.load), {"load", "clear", "dont_care", "none"}));
     row.field("store", enum_text("StoreOp", static_cast<size_t>(a.store), {"store", "dont_care", "none"})).nested("clear", clear_value(a.clear));
     if (a.resolve.resource == kNone) return row;
     row.nested("resolve", ref(a.resolve)).nested("resolve_range", range(a.resolve_range)).field("resolve_layout", layout_text(a.resolve_layout));

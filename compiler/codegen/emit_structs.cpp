@@ -103,7 +103,8 @@ class StructEmitter {
     RG_CHECK(offset >= at_, "a struct's fields overlap");
     const bool words = at_ % 4 == 0 && offset % 4 == 0;
     const std::string count = std::to_string((offset - at_) / (words ? 4 : 1));
-    if (offset > at_) out_.line(std::string(words ? "  uint32_t" : "  uint8_t") + " padding_" + std::to_string(paddings_++) + "[" + count + "] = {};");
+    if (offset > at_)
+      out_.line(std::string(words ? "  uint32_t" : "  uint8_t") + " padding_" + std::to_string(paddings_++) + "[" + count + "] = {};");
     at_ = offset;
   }
 

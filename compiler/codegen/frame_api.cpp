@@ -133,11 +133,10 @@ std::vector<ApiReadback> collect_readbacks(const Source& s, const PlanNames& nam
     const dsl::Resource& source = s.graph.resources.rows[s.plan.program_resource[r]];
     // Of the class and of rg::TypedFrame.
     static const std::set<std::string> kMethods = {
-        "built_",     "continue_from", "create",           "create_successor", "execute",    "execute_inputs",  "frame",
-        "gone",       "history_valid", "instance",         "invalidate",       "memory",     "pass_info",       "pass_statistics",
-        "pass_times", "profile_json",  "read_back",        "reconfigure",      "record",     "reload",          "request_dump",
-        "resize",     "resize_to",     "running_plan",     "set_active",       "succeed",    "set_active_to",   "submit",
-        "take_dump",  "use_commands",  "use_semaphores",   "wait_idle"};
+        "built_",        "continue_from", "create",        "create_successor", "execute",      "execute_inputs",  "frame",          "gone",
+        "history_valid", "instance",      "invalidate",    "memory",           "pass_info",    "pass_statistics", "pass_times",     "profile_json",
+        "read_back",     "reconfigure",   "record",        "reload",           "request_dump", "resize",          "resize_to",      "running_plan",
+        "set_active",    "succeed",       "set_active_to", "submit",           "take_dump",    "use_commands",    "use_semaphores", "wait_idle"};
     const std::string method = names.resources[r] + (kMethods.contains(names.resources[r]) ? "_" : "");
     readbacks.push_back({method, names.resources[r], mirror_type(s.program, s.uses, source.element, false), s.where(source.span)});
   }
@@ -168,7 +167,8 @@ void collect_conditions(const dsl::Program& program, FrameApi& api) {
   }
   for (size_t bit = 0; bit < member_of.size(); ++bit) {
     const dsl::Condition& condition = program.conditions.rows[bit];
-    if (condition.count > 0 && condition.index == 0 && member_of[bit] != SIZE_MAX) api.conditions[member_of[bit]].name += "[" + std::to_string(condition.count) + "]";
+    if (condition.count > 0 && condition.index == 0 && member_of[bit] != SIZE_MAX)
+      api.conditions[member_of[bit]].name += "[" + std::to_string(condition.count) + "]";
   }
 }
 

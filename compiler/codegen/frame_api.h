@@ -42,7 +42,7 @@ struct FrameApi {
   std::vector<ApiMember> imports, params, updates, conditions, engine_sets;
   std::vector<std::string> condition_bits;  // by bit: the member or element of Conditions, `cache_miss[3]`; empty: it follows from a feature
   std::vector<std::string> feature_values;  // by row of Plan::features: its value as an expression
-  std::vector<ApiFeature> features;  // by index of Plan::features
+  std::vector<ApiFeature> features;         // by index of Plan::features
   std::vector<ApiPass> passes;
   std::vector<ApiReadback> readbacks;
 };

@@ -105,8 +105,10 @@ std::string in_namespace(const std::string& scope, const std::string& text) {
 
 // What the header itself declares, and macros of the headers that it includes.
 bool is_taken(const std::string& name) {
-  constexpr std::string_view kNames[] = {"plan", "pass", "resource", "spectrum", "spirv", "rg", "std", "kFigures", "kPassFigures", "kResourceFigures", "kShaderFigures"};
-  const bool macro = name.starts_with("INT") || name.starts_with("UINT") || name.starts_with("LONG") || name.starts_with("SIZE_") || name.starts_with("CHAR_");
+  constexpr std::string_view kNames[] = {"plan", "pass",     "resource",     "spectrum",         "spirv",         "rg",
+                                         "std",  "kFigures", "kPassFigures", "kResourceFigures", "kShaderFigures"};
+  const bool macro =
+      name.starts_with("INT") || name.starts_with("UINT") || name.starts_with("LONG") || name.starts_with("SIZE_") || name.starts_with("CHAR_");
   const bool limit = macro && (name.ends_with("_MAX") || name.ends_with("_MIN") || name.ends_with("_BIT") || name.ends_with("_C"));
   return limit || name == "NULL" || name == "EOF" || std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
 }
@@ -138,7 +140,8 @@ std::string spectra_text(const dsl::Program& program, const dsl::SourceFiles& fi
     text += fmt::format("// {}\nstruct {} {{\n", origin(files, spectrum.span), cpp_name(spectrum.name));
     text += fmt::format("  static constexpr std::string_view name = \"{}\";\n", spectrum.name);
     text += fmt::format("  static constexpr std::string_view features[] = {{{}}};  // by bit of a mask\n", features);
-    text += fmt::format("  static constexpr uint32_t kernels[] = {{{}}};  // the masks they serve, in the order in which they are tried\n}};\n", kernels);
+    text +=
+        fmt::format("  static constexpr uint32_t kernels[] = {{{}}};  // the masks they serve, in the order in which they are tried\n}};\n", kernels);
   }
   return text.empty() ? "" : "namespace spectrum {\n" + text + "}  // namespace spectrum\n\n";
 }
@@ -167,8 +170,9 @@ std::vector<PlanOutput> collect_outputs(const dsl::Program& program, const std::
 std::string header_text(const dsl::Program& program, const std::vector<PlanOutput>& outputs, const dsl::SourceFiles& files,
                         const std::string& heading) {
   const std::string scope = cpp_name(program.module);
-  std::string text =
-      heading + "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n#include <utility>\n\n#include \"runtime/typed.h\"\n\n";
+  std::string text = heading +
+                     "#pragma once\n\n#include <cstddef>\n#include <cstdint>\n#include <span>\n#include <string_view>\n#include "
+                     "<utility>\n\n#include \"runtime/typed.h\"\n\n";
   text += "namespace " + scope + " {\n\n" + constants_text(program) + spectra_text(program, files) + emit_structs(program, files);
   for (const PlanOutput& output : outputs) text += in_namespace(inner_scope(output.api, scope), emit_declarations(output.api, *output.frame));
   return text + "\n}  // namespace " + scope + "\n";

@@ -21,8 +21,8 @@ class Layouts {
 
   // "0x3x1", "0x4x4[2]", "#8f3a0011"
   std::string text(const dsl::Type& type) {
-    std::string one =
-        type.record.valid() ? fmt::format("#{:08x}", of_struct(type.record)) : fmt::format("{}x{}x{}", static_cast<int>(type.scalar), type.rows, type.columns);
+    std::string one = type.record.valid() ? fmt::format("#{:08x}", of_struct(type.record))
+                                          : fmt::format("{}x{}x{}", static_cast<int>(type.scalar), type.rows, type.columns);
     if (type.packed != dsl::Format::none) one += fmt::format("~{}", dsl::name(type.packed));
     return type.count == 0 ? one : one + fmt::format("[{}]", type.count);
   }

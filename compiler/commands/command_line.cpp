@@ -109,7 +109,8 @@ void add_queues(CLI::App& command, std::vector<dsl::QueueKind>& queues) {
           "--queues",
           [&queues](const std::vector<dsl::QueueKind>& given) {
             if (given.size() > kMostQueues)
-              throw CLI::ValidationError("--queues", std::to_string(given.size()) + " queues are too many; the limit is " + std::to_string(kMostQueues));
+              throw CLI::ValidationError("--queues",
+                                         std::to_string(given.size()) + " queues are too many; the limit is " + std::to_string(kMostQueues));
             queues = given;
           },
           "what the plan may use, graphics first; default: graphics")
@@ -150,9 +151,7 @@ void add_plan_options(CLI::App& command, compiler::CompileOptions& options) {
   command
       .add_option_function<std::string>(
           "--halves",
-          [&options](const std::string& word) {
-            options.halves = word == "zero" ? compiler::HalfRounding::zero : compiler::HalfRounding::nearest;
-          },
+          [&options](const std::string& word) { options.halves = word == "zero" ? compiler::HalfRounding::zero : compiler::HalfRounding::nearest; },
           "how images of the device round 16-bit floats: zero (default) or nearest")
       ->check(one_of({"zero", "nearest"}));
   add_queues(command, options.plan.queues);
@@ -203,7 +202,8 @@ void add_build(CLI::App& app, Run& run) {
   command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
   command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
       ->type_name("TEXT");
-  command->add_option("--plan-file", options.plan_file, "also write the plans as data, for programs that load them; see docs/runtime.md")->type_name("FILE");
+  command->add_option("--plan-file", options.plan_file, "also write the plans as data, for programs that load them; see docs/runtime.md")
+      ->type_name("FILE");
   command->add_option("--manifest", options.manifest, "list the shader variants as jobs for other machines, as JSON, and build nothing")
       ->type_name("FILE");
   command->add_option("--shard", "build only the shaders of part I of N (I from 0) into the cache, and nothing else")
@@ -214,12 +214,14 @@ void add_build(CLI::App& app, Run& run) {
 }
 
 void add_watch(CLI::App& app, Run& run) {
-  Subcommand<WatchOptions> command(app, run, "watch", "compile a frame whenever it changes, for programs that reload its plan; until interrupted", watch);
+  Subcommand<WatchOptions> command(app, run, "watch", "compile a frame whenever it changes, for programs that reload its plan; until interrupted",
+                                   watch);
   WatchOptions& options = *command.options;
   command->add_option("FILE", options.file, kRootFile)->required();
   command->add_option("--plan-file", options.plan_file, "the file of plans that programs load; default: FILE with .rgplan")->type_name("FILE");
   command->add_option("-o,--output", options.folder, "also keep the generated files in this folder up to date")->type_name("DIR");
-  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")->type_name("TEXT");
+  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
+      ->type_name("TEXT");
   command->add_flag("-q,--quiet", options.quiet, "say only what is wrong");
   add_plan_options(*command.command, options.compile);
 }
@@ -243,7 +245,8 @@ void add_verify(CLI::App& app, Run& run) {
   Subcommand<VerifyCommand> command(app, run, "verify", "prove that the plans mean what the program says", verify_file);
   command->add_option("FILE", command.options->file, kRootFile)->required();
   command->add_flag("--mutate", command.options->mutate, "test the checker: every damaged plan must be rejected");
-  command->add_flag("--long", command.options->ask_all, "with --mutate: ask the abstract machine about every damaged plan that passes, not about 20 of each class");
+  command->add_flag("--long", command.options->ask_all,
+                    "with --mutate: ask the abstract machine about every damaged plan that passes, not about 20 of each class");
   add_plan_options(*command.command, command.options->compile);
 }
 
@@ -342,7 +345,8 @@ int run_command_line(int argc, char** argv) {
   app.set_version_flag("--version", "rgc 0.1.0");
   app.footer("Exit codes: 0 done, 1 the input is wrong, 2 the call is wrong, 3 our fault.");
   Run run;
-  for (auto* add : {add_build, add_watch, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
+  for (auto* add :
+       {add_build, add_watch, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
     add(app, run);
   if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
   try {

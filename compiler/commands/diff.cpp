@@ -59,9 +59,10 @@ std::string text_diff(const std::string& before, const std::string& after) {
 
 std::string facts_text(const Facts& facts) {
   return fmt::format(
-      "passes {}\nculled {}\nrenderings {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\nqueues {}\nmodelled time {:.1f} us\n",
-      facts.passes_live, facts.passes_culled, facts.renderings, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls, facts.submits,
-      facts.waits, facts.queues, facts.overlap.end / 1000);
+      "passes {}\nculled {}\nrenderings {}\nheap bytes {}\nunaliased bytes {}\nbarriers {} in {} calls\nsubmits {}\nwaits {}\nqueues {}\nmodelled "
+      "time {:.1f} us\n",
+      facts.passes_live, facts.passes_culled, facts.renderings, facts.heap_bytes, facts.unaliased_bytes, facts.barriers, facts.barrier_calls,
+      facts.submits, facts.waits, facts.queues, facts.overlap.end / 1000);
 }
 
 // The plan of one graph with one choice of features.

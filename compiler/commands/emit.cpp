@@ -66,8 +66,7 @@ int emit_files(const compiler::CompileResult& result, bool shaders) {
 int emit_json(const compiler::CompileResult& result) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const compiler::CompiledGraph& graph : result.graphs)
-    for (const compiler::FramePlan& plan : graph.plans)
-      all.push_back(plan_json(result, graph, plan));
+    for (const compiler::FramePlan& plan : graph.plans) all.push_back(plan_json(result, graph, plan));
   print(all.dump(2) + "\n");
   return exit_done;
 }

@@ -22,9 +22,7 @@ bool names(const std::string& name, std::string_view subject) {
   return subject.size() == name.size() || subject[name.size()] == '[' || subject[name.size()] == '.';
 }
 
-std::string text_at(const dsl::SourceFiles& sources, dsl::Span span) {
-  return sources[span.file].text.substr(span.begin, span.end - span.begin);
-}
+std::string text_at(const dsl::SourceFiles& sources, dsl::Span span) { return sources[span.file].text.substr(span.begin, span.end - span.begin); }
 
 // Uses of techniques, by the name of the instance or of the technique.
 std::string used_techniques(const compiler::CompileResult& result, const dsl::Graph& graph, const std::string& name) {
@@ -105,8 +103,8 @@ int explain_name(const ExplainOptions& options) {
   compile.until = compiler::Until::plans, compile.plan.reasons = true;
   const auto result = compile_or_report(options.file_or_code, compile);
   if (!result) return exit_input_wrong;
-  std::string text = explain_struct(result->program, result->sources, options.name) +
-                     explain_declarations(result->program, result->sources, options.name);
+  std::string text =
+      explain_struct(result->program, result->sources, options.name) + explain_declarations(result->program, result->sources, options.name);
   for (const compiler::CompiledGraph& compiled : result->graphs) {
     const dsl::Graph& graph = result->program.graphs[compiled.graph];
     text += declared(*result, graph, options.name) + used_by(graph, options.name);

@@ -38,7 +38,8 @@ std::string page_text(const Page& page) {
 std::string code_of(const std::string& text) {
   std::string upper = text;
   for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const bool digits = upper.size() == 6 && upper.starts_with("RG") && std::all_of(upper.begin() + 2, upper.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool digits =
+      upper.size() == 6 && upper.starts_with("RG") && std::all_of(upper.begin() + 2, upper.end(), [](char c) { return c >= '0' && c <= '9'; });
   if (digits) return upper;
   for (const DiagnosticKind kind : dsl::all_diagnostic_kinds())
     if (dsl::row(kind).name == text) return std::string(dsl::row(kind).code);

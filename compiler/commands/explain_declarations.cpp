@@ -26,8 +26,8 @@ std::string users(const dsl::Program& program, const Uses& uses) {
 }
 
 std::string graph_text(const dsl::Program& program, const dsl::SourceFiles& sources, const dsl::Graph& graph) {
-  std::string text = fmt::format("graph {}  {}\n  {}, {}\n", graph.name, place_text(sources, graph.span), counted(graph.passes.size(), "pass", "passes"),
-                                 counted(graph.resources.size(), "resource"));
+  std::string text = fmt::format("graph {}  {}\n  {}, {}\n", graph.name, place_text(sources, graph.span),
+                                 counted(graph.passes.size(), "pass", "passes"), counted(graph.resources.size(), "resource"));
   for (const dsl::Params& params : graph.params)
     if (!params.pass.valid()) text += fmt::format("  params {}: {}\n", params.name, program.structs[params.type].name);
   for (const Pass& pass : graph.passes) text += fmt::format("  pass {}\n", pass.name);
@@ -38,7 +38,8 @@ std::string params_text(const dsl::Program& program, const dsl::SourceFiles& sou
   const dsl::Params& params = graph.params[id];
   std::string text = fmt::format("params {}: {}  {}\n", params.name, program.structs[params.type].name, place_text(sources, params.span));
   for (const Pass& pass : graph.passes)
-    if (std::any_of(pass.params.begin(), pass.params.end(), [&](const dsl::ParamsUse& use) { return use.id == id; })) text += fmt::format("  pass {} reads it\n", pass.name);
+    if (std::any_of(pass.params.begin(), pass.params.end(), [&](const dsl::ParamsUse& use) { return use.id == id; }))
+      text += fmt::format("  pass {} reads it\n", pass.name);
   return text;
 }
 
@@ -52,7 +53,10 @@ std::string feature_text(const dsl::Program& program, const dsl::SourceFiles& so
            const bool by_condition = std::any_of(pass.conditions.begin(), pass.conditions.end(),
                                                  [&](dsl::ConditionId condition) { return program.conditions[condition].feature == id; });
            const bool exists = by_condition || depends_on(pass.guard, id);
-           return std::string(exists && in_shaders ? "depends on it, its shaders too" : exists ? "depends on it" : in_shaders ? "gives it to its shaders" : "");
+           return std::string(exists && in_shaders ? "depends on it, its shaders too"
+                              : exists             ? "depends on it"
+                              : in_shaders         ? "gives it to its shaders"
+                                                   : "");
          });
 }
 
@@ -69,7 +73,8 @@ std::string sampler_text(const dsl::Program& program, const dsl::SourceFiles& so
 std::string condition_text(const dsl::Program& program, const dsl::SourceFiles& sources, dsl::ConditionId id) {
   const dsl::Condition& condition = program.conditions[id];
   return fmt::format("condition {}  {}\n", condition.name, place_text(sources, condition.span)) + users(program, [&](const Pass& pass) {
-           return std::string(std::find(pass.conditions.begin(), pass.conditions.end(), id) == pass.conditions.end() ? "" : "runs only while it holds");
+           return std::string(std::find(pass.conditions.begin(), pass.conditions.end(), id) == pass.conditions.end() ? ""
+                                                                                                                     : "runs only while it holds");
          });
 }
 

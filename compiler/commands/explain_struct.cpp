@@ -56,8 +56,8 @@ std::string explain_struct(const dsl::Program& program, const dsl::SourceFiles& 
     const bool agree = dsl::layouts_agree(program.structs, record);
     return fmt::format("struct {}  {}\n", record.name, place_text(sources, record.span)) + layout_table(program, record) +
            (dsl::is_scalar(record) ? "  declared scalar: its blocks and all it holds are laid out without padding\n"
-            : agree ? "  std140 and std430 agree: one C++ struct fits uniform and storage blocks\n"
-                    : "  std140 and std430 differ: C++ has a struct for the one in use\n") +
+            : agree                ? "  std140 and std430 agree: one C++ struct fits uniform and storage blocks\n"
+                                   : "  std140 and std430 differ: C++ has a struct for the one in use\n") +
            uses_of(program, dsl::StructId{id});
   }
   return {};

@@ -148,8 +148,8 @@ Facts find_facts(const dsl::Program& program, const compiler::CompiledGraph& gra
   facts.variant = compiler::configuration_name(program, plan.configuration);
   facts.passes_live = plan.plan.passes.size();
   facts.passes_culled = plan.plan.culled.size();
-  facts.passes_raster = static_cast<size_t>(
-      std::count_if(plan.plan.passes.begin(), plan.plan.passes.end(), [](const Pass& pass) { return pass.rendering != kNone; }));
+  facts.passes_raster =
+      static_cast<size_t>(std::count_if(plan.plan.passes.begin(), plan.plan.passes.end(), [](const Pass& pass) { return pass.rendering != kNone; }));
   facts.renderings = plan.plan.renderings.size();
   facts.heap_bytes = plan.heap_bytes;
   facts.unaliased_bytes = plan.unaliased_bytes;
@@ -174,44 +174,41 @@ nlohmann::ordered_json to_json(const Facts& facts) {
   nlohmann::ordered_json frontier = nlohmann::ordered_json::array(), work = nlohmann::ordered_json::array();
   for (const auto& point : facts.order.frontier) frontier.push_back({{"groups", point.groups}, {"bytes", point.bytes}});
   for (const double ns : facts.overlap.work) work.push_back(ns / 1000);
-  return {{"graph", facts.graph},
-          {"variant", facts.variant},
-          {"passes",
-           {{"live", facts.passes_live},
-            {"culled", facts.passes_culled},
-            {"raster", facts.passes_raster},
-            {"renderings", facts.renderings}}},
-          {"memory",
-           {{"heap_bytes", facts.heap_bytes},
-            {"unaliased_bytes", facts.unaliased_bytes},
-            {"lower_bound_bytes", facts.lower_bound_bytes},
-            {"lazy_bytes", facts.lazy_bytes},
-            {"heap_beside_lazy_bytes", facts.heap_beside_lazy_bytes}}},
-          {"barriers",
-           {{"calls", facts.barrier_calls},
-            {"barriers", facts.barriers},
-            {"all_commands", facts.all_commands},
-            {"stages", facts.barrier_stages},
-            {"accesses", facts.barrier_accesses},
-            {"stall_us", facts.stall_us}}},
-          {"order",
-           {{"method", facts.order.method},
-            {"evaluations", facts.order.evaluations},
-            {"ordered_pairs", facts.order.ordered_pairs},
-            {"needed_pairs", facts.order.needed_pairs},
-            {"frontier", frontier}}},
-          {"queues", {{"count", facts.queues}, {"submits", facts.submits}, {"waits", facts.waits}, {"signals", facts.signals}}},
-          {"overlap",
-           {{"movable", facts.overlap.movable},
-            {"moved", facts.overlap.moved},
-            {"serial_us", facts.overlap.serial / 1000},
-            {"critical_path_us", facts.overlap.critical_path / 1000},
-            {"bound_us", facts.overlap.bound / 1000},
-            {"modelled_us", facts.overlap.end / 1000},
-            {"complete", facts.overlap.complete},
-            {"work_us", work}}},
-          {"variants", {{"plans", facts.plans}, {"shaders", facts.shaders}}},
-          {"time_ms", {{"plan", facts.plan_ms}, {"phases", phases}}}};
+  return {
+      {"graph", facts.graph},
+      {"variant", facts.variant},
+      {"passes", {{"live", facts.passes_live}, {"culled", facts.passes_culled}, {"raster", facts.passes_raster}, {"renderings", facts.renderings}}},
+      {"memory",
+       {{"heap_bytes", facts.heap_bytes},
+        {"unaliased_bytes", facts.unaliased_bytes},
+        {"lower_bound_bytes", facts.lower_bound_bytes},
+        {"lazy_bytes", facts.lazy_bytes},
+        {"heap_beside_lazy_bytes", facts.heap_beside_lazy_bytes}}},
+      {"barriers",
+       {{"calls", facts.barrier_calls},
+        {"barriers", facts.barriers},
+        {"all_commands", facts.all_commands},
+        {"stages", facts.barrier_stages},
+        {"accesses", facts.barrier_accesses},
+        {"stall_us", facts.stall_us}}},
+      {"order",
+       {{"method", facts.order.method},
+        {"evaluations", facts.order.evaluations},
+        {"ordered_pairs", facts.order.ordered_pairs},
+        {"needed_pairs", facts.order.needed_pairs},
+        {"frontier", frontier}}},
+      {"queues", {{"count", facts.queues}, {"submits", facts.submits}, {"waits", facts.waits}, {"signals", facts.signals}}},
+      {"overlap",
+       {{"movable", facts.overlap.movable},
+        {"moved", facts.overlap.moved},
+        {"serial_us", facts.overlap.serial / 1000},
+        {"critical_path_us", facts.overlap.critical_path / 1000},
+        {"bound_us", facts.overlap.bound / 1000},
+        {"modelled_us", facts.overlap.end / 1000},
+        {"complete", facts.overlap.complete},
+        {"work_us", work}}},
+      {"variants", {{"plans", facts.plans}, {"shaders", facts.shaders}}},
+      {"time_ms", {{"plan", facts.plan_ms}, {"phases", phases}}}};
 }
 
 }  // namespace rg::commands

@@ -13,7 +13,7 @@ namespace rg::commands {
 struct Facts {
   std::string graph, variant;  // variant: "fog=on", empty where the program has no features
   size_t passes_live = 0, passes_culled = 0;
-  size_t passes_raster = 0, renderings = 0;  // live raster passes, and how often one begins
+  size_t passes_raster = 0, renderings = 0;                             // live raster passes, and how often one begins
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // transients at the initial extents, by the device profile
   uint64_t lazy_bytes = 0, heap_beside_lazy_bytes = 0;                  // transients that may live on the chip; the heap without them
   size_t barrier_calls = 0, barriers = 0;                               // vkCmdPipelineBarrier2 with something in it; what they hold together

@@ -168,10 +168,11 @@ dsl::ReadSource reader_for(const std::string& root_path) {
   };
 }
 
-std::optional<Written> write_output(const std::string& folder_name, const std::vector<compiler::GeneratedFile>& files,
-                                    dsl::Diagnostics& diagnostics, const std::vector<compiler::GeneratedFile>& others) {
+std::optional<Written> write_output(const std::string& folder_name, const std::vector<compiler::GeneratedFile>& files, dsl::Diagnostics& diagnostics,
+                                    const std::vector<compiler::GeneratedFile>& others) {
   const fs::path folder = folder_name;
-  if (folder.empty()) return diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {"", "the name is empty", "nothing was changed"}), std::nullopt;
+  if (folder.empty())
+    return diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {"", "the name is empty", "nothing was changed"}), std::nullopt;
   const std::set<std::string> manifest = read_manifest(folder);
   FileReplacements replacements;
   Written written;

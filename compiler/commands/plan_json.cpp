@@ -153,7 +153,8 @@ struct PlanJson {
     if (row.vertex_offset != kNone) json["vertex_offset"] = expression_text(plan, row.vertex_offset);
     if (row.indices.resource != kNone) json["indices"] = ref(row.indices);
     if (row.vertex_buffer_count)
-      json["vertex_buffers"] = slice(plan.vertex_buffers, row.first_vertex_buffer, row.vertex_buffer_count, [&](const VertexBuffer& b) { return ref(b.ref); });
+      json["vertex_buffers"] =
+          slice(plan.vertex_buffers, row.first_vertex_buffer, row.vertex_buffer_count, [&](const VertexBuffer& b) { return ref(b.ref); });
     if (row.transfer_count)
       json["transfers"] = slice(plan.transfers, row.first_transfer, row.transfer_count, [&](const Transfer& t) { return transfer(t); });
     return json;

@@ -19,12 +19,13 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
   text += fmt::format("  passes    {} live, {} culled\n", facts.passes_live, facts.passes_culled);
   for (const Culled& culled : plan.culled) text += fmt::format("              {}: {}\n", culled.pass, culled.reason);
   if (facts.passes_raster > 0)
-    text += fmt::format("              {} in {}\n", counted(facts.passes_raster, "raster pass", "raster passes"), counted(facts.renderings, "rendering"));
+    text +=
+        fmt::format("              {} in {}\n", counted(facts.passes_raster, "raster pass", "raster passes"), counted(facts.renderings, "rendering"));
   text += fmt::format("  memory    {} with aliasing, {} without ({:.0f} % saved), lower bound {}\n", mib(facts.heap_bytes),
                       mib(facts.unaliased_bytes), 100 - percent(facts.heap_bytes, facts.unaliased_bytes), mib(facts.lower_bound_bytes));
   if (facts.lazy_bytes > 0)
-    text += fmt::format("              {} where the device has lazily allocated memory, for {} that no rendering loads or stores\n", mib(facts.heap_beside_lazy_bytes),
-                        mib(facts.lazy_bytes));
+    text += fmt::format("              {} where the device has lazily allocated memory, for {} that no rendering loads or stores\n",
+                        mib(facts.heap_beside_lazy_bytes), mib(facts.lazy_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
   text += fmt::format("  order     {}; {} pairs of passes are ordered, {} have to be\n", facts.order.method, facts.order.ordered_pairs,
                       facts.order.needed_pairs);
@@ -81,7 +82,8 @@ nlohmann::ordered_json fused_json(const compiler::CompileResult& result) {
 nlohmann::ordered_json not_fused_json(const compiler::CompileResult& result) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const compiler::FusionRefusal& refusal : result.not_fused)
-    rows.push_back({{"graph", result.written.graphs[refusal.graph].name}, {"fuse", refusal.fusion}, {"pass", refusal.pass}, {"reason", refusal.reason}});
+    rows.push_back(
+        {{"graph", result.written.graphs[refusal.graph].name}, {"fuse", refusal.fusion}, {"pass", refusal.pass}, {"reason", refusal.reason}});
   return rows;
 }
 
@@ -91,7 +93,8 @@ std::string folded_text(const compiler::CompileResult& result, size_t graph) {
   for (const compiler::Fold& fold : result.folded)
     for (const compiler::Fold::Part& part : fold.parts)
       if (fold.graph.value == graph)
-        text += fmt::format("  folded    {}: {} {}\n", fold.pass, part.into, part.target.empty() ? "clears " + part.image : "resolves " + part.image + " to " + part.target);
+        text += fmt::format("  folded    {}: {} {}\n", fold.pass, part.into,
+                            part.target.empty() ? "clears " + part.image : "resolves " + part.image + " to " + part.target);
   return text;
 }
 
@@ -137,7 +140,8 @@ std::string merged_text(const dsl::Program& program) {
   std::string text;
   for (const dsl::Condition& condition : program.conditions)
     if (condition.feature.valid())
-      text += fmt::format("  feature {} only removes passes: `{}` is a condition of the plan\n", program.features[condition.feature].name, condition.name);
+      text += fmt::format("  feature {} only removes passes: `{}` is a condition of the plan\n", program.features[condition.feature].name,
+                          condition.name);
   return text;
 }
 
@@ -187,7 +191,9 @@ int report(const ReportOptions& options) {
       all.push_back(find_facts(result->program, graph, plan));
       if (!options.json) print(text_of(all.back(), plan.plan));
     }
-    if (!options.json) print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + folded_text(*result, graph.graph.value) + variants_text(graph.shaders));
+    if (!options.json)
+      print(fused_text(*result, unfused ? &*unfused : nullptr, graph.graph.value) + folded_text(*result, graph.graph.value) +
+            variants_text(graph.shaders));
   }
   if (!options.json) print(merged_text(result->program));
   if (options.json) print(json_of(all, *result).dump(2) + "\n");

@@ -26,9 +26,12 @@ std::vector<double> curve_of(const compiler::SpectrumChoice& choice) {
 
 std::string name_of(compiler::CostSource source) {
   switch (source) {
-    case compiler::CostSource::times: return "times";
-    case compiler::CostSource::both: return "times and statistics";
-    default: return "statistics";
+    case compiler::CostSource::times:
+      return "times";
+    case compiler::CostSource::both:
+      return "times and statistics";
+    default:
+      return "statistics";
   }
 }
 
@@ -74,13 +77,13 @@ std::string text_of(const SpectrumFacts& facts) {
         fmt::format("  {:>2} kernels {:>10.4g}  {:5.2f} % less than {}\n", k + 1, facts.curve[k], 100 * (1 - facts.curve[k] / facts.curve[k - 1]), k);
   text += "  kernel      cost    tiles  features\n";
   for (size_t k = 0; k < facts.kernels.size(); ++k)
-    text += fmt::format("  {:>6} {:>9.4g} {:>6.2f} %  {}\n", k, facts.kernels[k].cost, 100 * facts.kernels[k].share, facts.names(facts.kernels[k].set));
+    text +=
+        fmt::format("  {:>6} {:>9.4g} {:>6.2f} %  {}\n", k, facts.kernels[k].cost, 100 * facts.kernels[k].share, facts.names(facts.kernels[k].set));
   text += "  tiles     kernel  in vain  features; those it pays for in vain\n";
   for (size_t i = 0; i < std::min(kShown, facts.masks.size()); ++i) {
     const MaskFacts& row = facts.masks[i];
-    text +=
-        fmt::format("  {:>6.2f} % {:>6} {:>+6.1f} %  {}{}\n", 100 * row.share, row.kernel, 100 * (row.cost / row.own - 1), facts.names(row.mask),
-                    row.superfluous == 0 ? "" : "; " + facts.names(row.superfluous));
+    text += fmt::format("  {:>6.2f} % {:>6} {:>+6.1f} %  {}{}\n", 100 * row.share, row.kernel, 100 * (row.cost / row.own - 1), facts.names(row.mask),
+                        row.superfluous == 0 ? "" : "; " + facts.names(row.superfluous));
   }
   if (facts.masks.size() > kShown) text += fmt::format("  and {} more\n", facts.masks.size() - kShown);
   return text;
@@ -94,14 +97,11 @@ nlohmann::ordered_json names_json(const SpectrumFacts& facts, uint32_t set) {
 }
 
 nlohmann::ordered_json json_of(const SpectrumFacts& facts) {
-  nlohmann::ordered_json json = {{"spectrum", facts.name},         {"pass", facts.pass},
-                                 {"features", facts.features},     {"measured", facts.measured},
-                                 {"costs", facts.costs},
-                                 {"scenes", facts.scenes},         {"tiles", facts.tiles},
-                                 {"expected", facts.expected},     {"bound", facts.bound},
-                                 {"exact", facts.exact},           {"one_kernel", facts.one_kernel},
-                                 {"kernel_per_mask", facts.kernel_per_mask},
-                                 {"by_kernels", facts.curve}};
+  nlohmann::ordered_json json = {
+      {"spectrum", facts.name},   {"pass", facts.pass},     {"features", facts.features},     {"measured", facts.measured},
+      {"costs", facts.costs},     {"scenes", facts.scenes}, {"tiles", facts.tiles},           {"expected", facts.expected},
+      {"bound", facts.bound},     {"exact", facts.exact},   {"one_kernel", facts.one_kernel}, {"kernel_per_mask", facts.kernel_per_mask},
+      {"by_kernels", facts.curve}};
   for (const KernelFacts& kernel : facts.kernels)
     json["kernels"].push_back({{"features", names_json(facts, kernel.set)}, {"cost", kernel.cost}, {"share", kernel.share}});
   for (const MaskFacts& mask : facts.masks)

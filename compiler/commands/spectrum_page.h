@@ -8,15 +8,15 @@
 namespace rg::commands {
 
 struct KernelFacts {
-  uint32_t set = 0;  // bits: SpectrumFacts::features
+  uint32_t set = 0;            // bits: SpectrumFacts::features
   double cost = 0, share = 0;  // share of all tiles
 };
 struct MaskFacts {
   uint32_t mask = 0;
   double share = 0;
   uint32_t kernel = 0;
-  uint32_t superfluous = 0;   // features the kernel has and the mask lacks
-  double cost = 0, own = 0;   // of its kernel; of one that has the mask's features only
+  uint32_t superfluous = 0;  // features the kernel has and the mask lacks
+  double cost = 0, own = 0;  // of its kernel; of one that has the mask's features only
 };
 struct SpectrumFacts {
   std::string name, pass;

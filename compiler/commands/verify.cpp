@@ -34,7 +34,8 @@ bool prove(const compiler::CompileResult& result, const compiler::CompiledGraph&
       verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource);
   for (verify::Finding& finding : verify::verify_fusion(result.written, result.unfolded, graph.graph, plan.configuration, kernels_of(result, graph)))
     findings.push_back(std::move(finding));
-  for (verify::Finding& finding : verify::verify_folding(result.unfolded, result.program, graph.graph, plan.configuration)) findings.push_back(std::move(finding));
+  for (verify::Finding& finding : verify::verify_folding(result.unfolded, result.program, graph.graph, plan.configuration))
+    findings.push_back(std::move(finding));
   show_progress({});
   for (const verify::Finding& finding : findings) print(fmt::format("{}: {}: {}\n", name, verify::name(finding.hazard), finding.text));
   if (findings.empty()) print(fmt::format("{}: proved\n", name));

@@ -101,7 +101,8 @@ struct Build {
   std::vector<compiler::SpectrumChoice> kernels;
 };
 
-// Writes the files, or says what is wrong and leaves them as they are. With the kernels of an earlier build it may stop at a plan file that is soon there.
+// Writes the files, or says what is wrong and leaves them as they are. With the kernels of an earlier build it may stop at a plan file that is soon
+// there.
 Build build_once(const WatchOptions& options, const std::vector<compiler::SpectrumChoice>* earlier) {
   const auto start = Clock::now();
   MarkingReader reader(options.file);
@@ -114,7 +115,8 @@ Build build_once(const WatchOptions& options, const std::vector<compiler::Spectr
   dsl::Diagnostics diagnostics;
   read_profile(compile, diagnostics);
   compiler::CompileResult result = compiler::compile(options.file, reader.reader(), compile, diagnostics);
-  if (compile.preview && diagnostics.has_errors()) return build_once(options, nullptr);  // haste makes no judgement: what the optimiser drops is still there
+  if (compile.preview && diagnostics.has_errors())
+    return build_once(options, nullptr);  // haste makes no judgement: what the optimiser drops is still there
   if (!diagnostics.has_errors() && result.program.graphs.empty()) diagnostics.report(dsl::DiagnosticKind::NoGraph, {}, {options.file});
   const std::string path = plan_file_of(options);
   if (!diagnostics.has_errors()) write_results(options, plan_file(path, result), result, diagnostics);

@@ -55,14 +55,16 @@ std::string per_component(Format format, const std::string& type, const std::str
   const uint32_t count = components(format);
   std::string list;
   for (uint32_t i = 0; i < count; ++i)
-    list += (i == 0 ? "" : ", ") + function + "(v" + (count == 1 ? "" : std::string(".") + "xyzw"[i]) + ", " + std::to_string(bits_of(format, i)) + "u)";
+    list +=
+        (i == 0 ? "" : ", ") + function + "(v" + (count == 1 ? "" : std::string(".") + "xyzw"[i]) + ", " + std::to_string(bits_of(format, i)) + "u)";
   return "return " + (count == 1 ? list : type + "(" + list + ")") + ";";
 }
 
 const char* helper(Format format) {
   switch (dsl::info(format).numeric) {
     case Numeric::unorm:
-      return "float rg_to_unorm(float v, uint bits) { float most = float((1u << bits) - 1u); return float(uint(roundEven(max(min(v, 1.0), 0.0) * most))) / most; }\n";
+      return "float rg_to_unorm(float v, uint bits) { float most = float((1u << bits) - 1u); return float(uint(roundEven(max(min(v, 1.0), 0.0) * "
+             "most))) / most; }\n";
     case Numeric::snorm:
       return "float rg_to_snorm(float v, uint bits) {\n"  // there is no negative zero
              "  float most = float((1u << (bits - 1u)) - 1u);\n"
@@ -86,7 +88,8 @@ bool loses_nothing(Format format) {
 }
 
 std::string body(Format format, const std::string& type, HalfRounding rounding) {
-  if (format == Format::r11g11b10f) return "return vec3(rg_to_unsigned_float(v.x, 6u), rg_to_unsigned_float(v.y, 6u), rg_to_unsigned_float(v.z, 5u));";
+  if (format == Format::r11g11b10f)
+    return "return vec3(rg_to_unsigned_float(v.x, 6u), rg_to_unsigned_float(v.y, 6u), rg_to_unsigned_float(v.z, 5u));";
   if (is_small_float(format)) return half_body(components(format), type, rounding);
   switch (dsl::info(format).numeric) {
     case Numeric::unorm:

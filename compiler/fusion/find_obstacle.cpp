@@ -28,7 +28,8 @@ bool apart(uint32_t a, uint32_t a_count, uint32_t b, uint32_t b_count) {
 bool overlap(const dsl::Access& a, const dsl::Access& b) {
   if (a.resource != b.resource || a.age != b.age) return false;
   const bool aspects = a.range.aspects == 0 || b.range.aspects == 0 || (a.range.aspects & b.range.aspects) != 0;
-  return aspects && !apart(a.range.mip, a.range.mips, b.range.mip, b.range.mips) && !apart(a.range.layer, a.range.layers, b.range.layer, b.range.layers);
+  return aspects && !apart(a.range.mip, a.range.mips, b.range.mip, b.range.mips) &&
+         !apart(a.range.layer, a.range.layers, b.range.layer, b.range.layers);
 }
 
 bool conflict(const dsl::Access& a, const dsl::Access& b) { return overlap(a, b) && (a.mode != Mode::read || b.mode != Mode::read); }
@@ -50,8 +51,8 @@ std::string deed(const dsl::Graph& graph, const dsl::Pass& pass, const dsl::Acce
 
 Obstacle clash(const dsl::Graph& graph, const dsl::Pass& a, const dsl::Access& left, const dsl::Pass& b, const dsl::Access& right) {
   const bool views = left.element && right.element;
-  const std::string why = views ? "they see `" + graph.resources[left.resource].name + "` in different ways"
-                                : deed(graph, b, right) + ", and " + deed(graph, a, left);
+  const std::string why =
+      views ? "they see `" + graph.resources[left.resource].name + "` in different ways" : deed(graph, b, right) + ", and " + deed(graph, a, left);
   return obstacle(why, {{left.span, deed(graph, a, left)}, {right.span, deed(graph, b, right)}});
 }
 
@@ -109,7 +110,6 @@ Found owned_params(const dsl::Graph& graph, const dsl::Pass& pass) {
                       {{graph.params[use.id].span, "it is declared here"}});
   return {};
 }
-
 
 Found too_large(const dsl::Program& program, const std::vector<const dsl::Pass*>& members) {
   const uint64_t bytes = shared_bytes(program, members);

@@ -26,12 +26,12 @@ namespace rg::compiler {
 
 struct FusedKernel {
   dsl::GraphId graph;
-  std::string fusion, pass;                // the `fuse`, and the pass it became
-  std::vector<std::string> members;        // of the program as written
-  struct Saved {                           // elements of `resource` are moved so many times less
+  std::string fusion, pass;          // the `fuse`, and the pass it became
+  std::vector<std::string> members;  // of the program as written
+  struct Saved {                     // elements of `resource` are moved so many times less
     dsl::ResourceId resource;
     uint32_t accesses = 0;
-    bool dropped = false;                  // and it has no memory any more
+    bool dropped = false;  // and it has no memory any more
   };
   std::vector<Saved> saved;
 };

@@ -18,7 +18,9 @@ uint64_t elements(const dsl::Program& program, const dsl::Pass& pass, const std:
   return count;
 }
 
-uint64_t bytes_of(const dsl::Resource& resource) { return resource.kind == dsl::ResourceKind::image ? dsl::info(resource.format).block_bytes : resource.stride; }
+uint64_t bytes_of(const dsl::Resource& resource) {
+  return resource.kind == dsl::ResourceKind::image ? dsl::info(resource.format).block_bytes : resource.stride;
+}
 
 std::string list(const std::vector<std::string>& names) {
   std::string text;
@@ -71,7 +73,8 @@ std::vector<FusionNote> fusion_notes(const dsl::Program& written, const std::vec
   for (const FusedKernel& kernel : kernels) {
     if (kernel.graph != graph) continue;
     notes.push_back({kernel.pass, "fused", "one kernel of " + list(kernel.members) + "; " + gain(written, kernel)});
-    for (const std::string& member : kernel.members) notes.push_back({member, "runs in `" + kernel.pass + "`", "`fuse " + kernel.fusion + "` merges it"});
+    for (const std::string& member : kernel.members)
+      notes.push_back({member, "runs in `" + kernel.pass + "`", "`fuse " + kernel.fusion + "` merges it"});
     for (const FusedKernel::Saved& saved : kernel.saved) {
       const std::string& name = written.graphs[graph].resources[saved.resource].name;
       if (saved.dropped) notes.push_back({name, "stays in registers", "nothing but kernel `" + kernel.pass + "` writes or reads it"});

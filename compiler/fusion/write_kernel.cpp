@@ -18,7 +18,7 @@ constexpr uint32_t kOrderedLanes = 4;  // up to as many are joined one after the
 
 // ---- what the kernel holds
 
-struct Cell {  // an element's value, in a variable
+struct Cell {          // an element's value, in a variable
   dsl::Access access;  // merged over the members
   std::string name;    // of the variable
   bool load = false, store = false, dropped = false;
@@ -31,7 +31,7 @@ struct Parts {
   const KernelOrder& order;
   std::vector<const dsl::Pass*> members;
   std::vector<Cell> cells;
-  std::vector<std::vector<size_t>> cell_of;  // [member][access], SIZE_MAX: no element
+  std::vector<std::vector<size_t>> cell_of;                 // [member][access], SIZE_MAX: no element
   std::vector<std::map<std::string, std::string>> renamed;  // by member: names of its source -> names of the kernel
   std::set<std::string> taken;
   dsl::Pass pass;
@@ -118,10 +118,9 @@ void add_params(Parts& at, size_t member) {
   for (dsl::ParamsUse use : at.members[member]->params) {
     const std::string own = use.name;
     const auto same = std::find_if(at.pass.params.begin(), at.pass.params.end(), [&](const dsl::ParamsUse& other) { return other.id == use.id; });
-    const bool known = same != at.pass.params.end();
-    use.name = known ? same->name : claim(at, own);
+    use.name = same != at.pass.params.end() ? same->name : claim(at, own);
     note_name(at, member, own, use.name);
-    if (!known) at.pass.params.push_back(std::move(use));
+    if (same == at.pass.params.end()) at.pass.params.push_back(std::move(use));
   }
 }
 
@@ -147,9 +146,7 @@ std::string axes_text(const std::string& vector, uint32_t axes) {
   return axes == 2 ? vector + ".xy" : vector;
 }
 
-uint32_t image_axes(const dsl::Resource& image) {
-  return image.dimension == dsl::Dimension::d1 ? 1 : image.dimension == dsl::Dimension::d3 ? 3 : 2;
-}
+uint32_t image_axes(const dsl::Resource& image) { return image.dimension == dsl::Dimension::d1 ? 1 : image.dimension == dsl::Dimension::d3 ? 3 : 2; }
 
 bool is_struct(const dsl::Resource& resource) { return resource.kind == ResourceKind::buffer && resource.format == dsl::Format::none; }
 
@@ -170,8 +167,8 @@ std::string load_text(const Parts& at, const Cell& cell) {
   const dsl::Resource& resource = resource_of(at, cell.access);
   const std::string binding = binding_name(cell.access), place = place_of(at, cell.access);
   if (is_struct(resource)) return cell.name + " = " + binding + "[" + place + "];";
-  const std::string texel = cell.access.role == Role::sampled ? "texelFetch(" + binding + ", " + place + ", 0)"
-                                                              : "imageLoad(" + binding + ", " + place + ")";
+  const bool fetched = cell.access.role == Role::sampled;
+  const std::string texel = fetched ? "texelFetch(" + binding + ", " + place + ", 0)" : "imageLoad(" + binding + ", " + place + ")";
   constexpr const char* kParts[] = {"", ".x", ".xy", ".xyz", ""};
   return cell.name + " = " + texel + kParts[components(dsl::seen_format(resource, cell.access))] + ";";
 }
@@ -182,7 +179,8 @@ std::string store_text(const Parts& at, const Cell& cell) {
   if (is_struct(resource)) return binding + "[" + place + "] = " + cell.name + ";";
   const std::string type = cell_type(at, cell), prefix = type[0] == 'u' ? "u" : type[0] == 'i' ? "i" : "";
   constexpr const char* kRest[] = {"", ", 0, 0, 1", ", 0, 1", ", 1", ""};
-  return "imageStore(" + binding + ", " + place + ", " + prefix + "vec4(" + cell.name + kRest[components(dsl::seen_format(resource, cell.access))] + "));";
+  const char* rest = kRest[components(dsl::seen_format(resource, cell.access))];
+  return "imageStore(" + binding + ", " + place + ", " + prefix + "vec4(" + cell.name + rest + "));";
 }
 
 std::string zero_text(const Parts& at, const Cell& cell) {
@@ -316,7 +314,8 @@ void main_of_walk(Body& body, uint32_t axis) {
   begin_element(body);
   for (size_t m = 0; m < body.at.members.size(); ++m) {
     const bool joins = body.at.members[m]->block->associative;
-    if (joins) body.line(carried(m) + " = " + function(body.at, m, "join") + "(" + carried(m) + ", " + function(body.at, m, "own") + "(" + body.place + "));");
+    if (joins)
+      body.line(carried(m) + " = " + function(body.at, m, "join") + "(" + carried(m) + ", " + function(body.at, m, "own") + "(" + body.place + "));");
     run_member(body, m, scans(*body.at.members[m]) ? carried(m) : "");
   }
   end_element(body);
@@ -339,7 +338,8 @@ void join_lanes(Body& body, size_t member, uint32_t lanes, uint32_t stride) {
   }
   body.line(type + " " + sum + " = " + line + "[gl_LocalInvocationIndex];");
   body.line("for (uint rg_away = 1u; rg_away < " + std::to_string(lanes) + "u; rg_away <<= 1) {");
-  body.line("  if (rg_lane >= rg_away && rg_here) " + sum + " = " + join + "(" + line + "[gl_LocalInvocationIndex - rg_away" + apart + "], " + sum + ");");
+  const std::string before = line + "[gl_LocalInvocationIndex - rg_away" + apart + "]";
+  body.line("  if (rg_lane >= rg_away && rg_here) " + sum + " = " + join + "(" + before + ", " + sum + ");");
   body.line("  barrier();");
   body.line("  " + line + "[gl_LocalInvocationIndex] = " + sum + ";");
   body.line("  barrier();");
@@ -390,11 +390,11 @@ void main_of_scan(Body& body, uint32_t axis, const GroupShape& group) {
 std::string main_text(Parts& at, const GroupShape& group) {
   Body body{at, "", axes_text("rg_at", first(at).block->axes)};
   const auto axis = scan_axis(at.members);
+  const std::string lanes = std::to_string(group.size[0] * group.size[1] * group.size[2]);
   std::string shared;
   if (axis && group.size[*axis] > 1)
     for (size_t m = 0; m < at.members.size(); ++m)
-      if (scans(*at.members[m]))
-        shared += "shared " + carry_type(at, m) + " rg_line" + number(m) + "[" + std::to_string(group.size[0] * group.size[1] * group.size[2]) + "];\n";
+      if (scans(*at.members[m])) shared += "shared " + carry_type(at, m) + " rg_line" + number(m) + "[" + lanes + "];\n";
   if (!axis)
     main_of_elements(body);
   else if (group.size[*axis] == 1)

@@ -35,10 +35,10 @@ struct KernelMember {
   FlatSource source;  // of its block
 };
 struct KernelOrder {
-  std::string name;                    // of the pass it becomes
-  std::vector<KernelMember> members;   // in order; passes with blocks over one domain
-  std::set<dsl::ResourceId> dropped;   // written first by a member, read by members only: stay in registers
-  bool unrounded = false;              // dropped values keep all their bits
+  std::string name;                   // of the pass it becomes
+  std::vector<KernelMember> members;  // in order; passes with blocks over one domain
+  std::set<dsl::ResourceId> dropped;  // written first by a member, read by members only: stay in registers
+  bool unrounded = false;             // dropped values keep all their bits
   HalfRounding halves = HalfRounding::zero;
 };
 // An ordinary compute pass with the shader's text in it. Everything but name, accesses, parameters, features, dispatch and shader is the first

@@ -120,8 +120,8 @@ void check_features(const PassContext& context, const std::vector<ShaderUse>& us
 }
 
 // Vertex and fragment shaders as they meet in the rows of the pass; other stages between them would have a say.
-void check_interfaces(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results, ShaderPlaces& places,
-                      dsl::Diagnostics& diagnostics) {
+void check_interfaces(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results,
+                      ShaderPlaces& places, dsl::Diagnostics& diagnostics) {
   if (uses.size() != 2 || uses[0].shader.stage != dsl::stage_vertex || uses[1].shader.stage != dsl::stage_fragment) return;
   std::set<std::pair<size_t, size_t>> checked;
   for (size_t row = 0; row < uses[0].jobs.size(); ++row) {
@@ -327,7 +327,8 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
     target.variants.resize(space.configurations);
     target.values.resize(space.configurations);
     target.selecting = space.selecting.empty() ? std::vector<std::vector<size_t>>(space.configurations) : space.selecting[i];
-    if (good[i]) add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], modules.words, target, builder, diagnostics);
+    if (good[i])
+      add_variants({program, graph, graph.passes.rows[i]}, work.passes[i], space.passes[i], all.rows[i], modules.words, target, builder, diagnostics);
   }
   builder.bundle.read_files = sources.readable_paths();
   return std::move(builder.bundle);

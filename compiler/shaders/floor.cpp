@@ -31,7 +31,8 @@ Capability capability_of(uint32_t spirv) {
 }
 
 std::string name_of(Capability capability) {
-  static constexpr const char* kNames[] = {"none",
+  static constexpr const char* kNames[] = {
+      "none",
 #define RG_CAPABILITY(name, meaning) #name,
 #include "dsl/capability.def"
 #undef RG_CAPABILITY
@@ -52,7 +53,8 @@ bool asked_for(const PassContext& context, const VariantRow& row, Capability cap
 std::vector<Capability> device_capabilities(const Words& words) {
   constexpr size_t kHeaderWords = 5;
   std::set<Capability> found;
-  for (size_t at = kHeaderWords; at + 1 < words.size() && (words[at] & spv::OpCodeMask) == spv::OpCapability; at += words[at] >> spv::WordCountShift) {
+  for (size_t at = kHeaderWords; at + 1 < words.size() && (words[at] & spv::OpCodeMask) == spv::OpCapability;
+       at += words[at] >> spv::WordCountShift) {
     if (words[at] >> spv::WordCountShift != 2) break;
     if (const Capability capability = capability_of(words[at + 1]); capability != Capability::none) found.insert(capability);
   }

@@ -63,7 +63,8 @@ class Includer : public glslang::TShader::Includer {
 
   IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
     if (!stopped_.empty()) return fail(stopped_);  // glslang goes on, and files that include twice would take as long as without a limit
-    if (depth > kMostDepth) return stop(loops_ ? "it includes itself, directly or through others" : "more than 32 files include one another in a row");
+    if (depth > kMostDepth)
+      return stop(loops_ ? "it includes itself, directly or through others" : "more than 32 files include one another in a row");
     if (++count_ > kMostIncludes) return stop("more than 1024 files are included");
     // glslang calls every line of the first level by the name of the first string.
     const std::string from = includer == kPreludeName ? path_ : includer;

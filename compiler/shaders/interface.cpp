@@ -130,9 +130,8 @@ std::string binding_text(const dsl::Program& program, const dsl::Graph& graph, c
   const dsl::Access& access = pass.accesses[binding.access];
   const dsl::Resource& resource = graph.resources[access.resource];
   if (binding.kind == BindingKind::storage_buffer)
-    return "layout(" + place + ", " + block_layout(program, resource.element, "std430") + ") " +
-           memory_qualifier(access.mode) + "buffer " + block + " { " + glsl_type(program, resource.element) + " " +
-           binding.name + "[]; };";
+    return "layout(" + place + ", " + block_layout(program, resource.element, "std430") + ") " + memory_qualifier(access.mode) + "buffer " + block +
+           " { " + glsl_type(program, resource.element) + " " + binding.name + "[]; };";
   if (binding.kind == BindingKind::uniform_buffer)
     return "layout(" + place + ", " + block_layout(program, resource.element, "std140") + ") uniform " + block + " { " +
            glsl_variable(program, resource.element, binding.name) + "; };";
@@ -189,9 +188,9 @@ void add_stage_interface(const dsl::Program& program, const dsl::Graph& graph, c
   if (pass.draw.per_draw.valid()) {
     const std::string type = program.structs[pass.draw.per_draw].name;
     const dsl::Type record{.record = pass.draw.per_draw};
-    prelude.push_back({std::string("layout(push_constant, ") + block_layout(program, record, "std430") + ") uniform rg_block_per_draw { " + type +
-                           " per_draw; };",
-                       pass.span});
+    prelude.push_back(
+        {std::string("layout(push_constant, ") + block_layout(program, record, "std430") + ") uniform rg_block_per_draw { " + type + " per_draw; };",
+         pass.span});
   }
   if (stage == dsl::stage_vertex) add_vertex_inputs(program, pass, prelude);
   if (stage == dsl::stage_fragment) {

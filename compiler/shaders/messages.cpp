@@ -50,7 +50,8 @@ std::string image_access(const std::string& image, const std::string& name, cons
   const auto is_first_argument = [&](const char* function) {
     const size_t call = line.find(function), open = call == std::string::npos ? call : line.find('(', call);
     const size_t first = open == std::string::npos ? open : line.find_first_not_of(' ', open + 1);
-    return first != std::string::npos && line.compare(first, name.size(), name) == 0 && (first + name.size() == line.size() || !is_word(line[first + name.size()]));
+    return first != std::string::npos && line.compare(first, name.size(), name) == 0 &&
+           (first + name.size() == line.size() || !is_word(line[first + name.size()]));
   };
   if (is_first_argument("imageStore")) return "write " + image + " as storage";
   if (is_first_argument("imageAtomic")) return "atomic " + image;

@@ -33,7 +33,8 @@ struct Specialised {
   std::vector<Words> words;  // by job
   bool complete = true;      // false: some are not final, see ShaderEffort::preview
 };
-// Optimised, stripped and, unless they are only measured, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of the work.
+// Optimised, stripped and, unless they are only measured, validated SPIR-V of each job. Jobs whose modules are equal once pruned share the rest of
+// the work.
 Specialised specialise(const std::vector<SpecialiseJob>& jobs, const std::vector<FrontEndResult>& front_ends, const ShaderOptions& options);
 
 }  // namespace rg::compiler

@@ -77,8 +77,9 @@ class ShaderCache;
 enum class ShaderEffort : uint8_t {
   product,
   measure,  // the shaders are measured and thrown away: nobody validates them
-  preview,  // somebody waits: variants that are not in the cache have their constants set and lack what those leave out, and that is all. Their module is
-            // valid and optimised, but kernels of a spectrum are neither optimised nor pruned. ShaderBundle::complete says whether that came to anything
+  preview,  // somebody waits: variants that are not in the cache have their constants set and lack what those leave out, and that is all. Their
+            // module is valid and optimised, but kernels of a spectrum are neither optimised nor pruned. ShaderBundle::complete says whether that
+            // came to anything
 };
 struct ShaderOptions {
   const ShaderCache* cache = nullptr;  // see cache.h; null: none

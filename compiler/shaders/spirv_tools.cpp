@@ -147,8 +147,8 @@ Words finish_spirv(const Words& words) {
 
 std::string tool_versions() {
   const glslang::Version front_end = glslang::GetVersion();
-  return "pipeline " RGC_METHOD ", glslang " + std::to_string(front_end.major) + "." + std::to_string(front_end.minor) + "." + std::to_string(front_end.patch) +
-         front_end.flavor + ", " + spvSoftwareVersionDetailsString();
+  return "pipeline " RGC_METHOD ", glslang " + std::to_string(front_end.major) + "." + std::to_string(front_end.minor) + "." +
+         std::to_string(front_end.patch) + front_end.flavor + ", " + spvSoftwareVersionDetailsString();
 }
 
 Words strip_spirv(const Words& words) {

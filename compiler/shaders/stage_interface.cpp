@@ -81,8 +81,11 @@ std::vector<StageSlot> stage_slots(const Words& words, bool inputs) {
   for (const auto& variable : inputs ? resources.stage_inputs : resources.stage_outputs) {
     const SPIRType& type = compiler.get_type(variable.base_type_id);
     const SPIRType& whole = compiler.get_type(variable.type_id);
-    const StageSlot at{variable.name, compiler.get_decoration(variable.id, spv::DecorationLocation),
-                       compiler.get_decoration(variable.id, spv::DecorationComponent), {}, 1};
+    const StageSlot at{variable.name,
+                       compiler.get_decoration(variable.id, spv::DecorationLocation),
+                       compiler.get_decoration(variable.id, spv::DecorationComponent),
+                       {},
+                       1};
     add_slots(compiler, whole.array.empty() ? type : whole, at, slots);
   }
   std::sort(slots.begin(), slots.end(),

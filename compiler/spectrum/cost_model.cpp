@@ -129,7 +129,8 @@ bool tell_apart(uint32_t features, const std::vector<std::pair<Mask, double>>& s
   return rank == n;
 }
 
-std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates, const std::vector<std::pair<Mask, double>>& times) {
+std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates,
+                                                    const std::vector<std::pair<Mask, double>>& times) {
   const std::map<Mask, double> timed(times.begin(), times.end());
   double products = 0, squares = 0;  // the factor that leaves the least squares
   for (const auto& [set, estimate] : estimates)

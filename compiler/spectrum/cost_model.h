@@ -17,8 +17,8 @@ struct Additive {
 };
 double evaluate(const Additive& terms, Mask set);
 
-// Work times what registers cost in occupancy. Kernels that were measured cost what was measured, and others no less than those of their subsets and no
-// more than those of their supersets.
+// Work times what registers cost in occupancy. Kernels that were measured cost what was measured, and others no less than those of their subsets and
+// no more than those of their supersets.
 struct CostModel {
   Additive work;
   Additive registers{0, {}, {}};                  // scalars alive; 0: they cost nothing
@@ -50,7 +50,8 @@ Additive fit_terms(uint32_t features, const std::vector<std::pair<Mask, double>>
 // Whether samples of these sets determine the base and the term of every feature. O(sets x features^2).
 bool tell_apart(uint32_t features, const std::vector<std::pair<Mask, double>>& samples);
 // Estimates, brought to the unit of the measured times by the one factor that fits those both know best; and the times themselves.
-std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates, const std::vector<std::pair<Mask, double>>& times);
+std::vector<std::pair<Mask, double>> complete_times(const std::vector<std::pair<Mask, double>>& estimates,
+                                                    const std::vector<std::pair<Mask, double>>& times);
 // base and features by least squares with a little damping towards equal shares, for samples of any sets.
 Additive fit_least_squares(uint32_t features, const std::vector<std::pair<Mask, double>>& samples);
 

@@ -42,7 +42,9 @@ Grid groups(const dsl::Program& program, const dsl::Dispatch& dispatch, const st
 const dsl::Resource& resource_of(const dsl::Program& program, const User& user, uint32_t access) {
   return program.graphs[user.graph].resources[user.pass->accesses[access].resource];
 }
-std::string text_of(const Grid& grid) { return std::to_string(grid[0]) + "x" + std::to_string(grid[1]) + (grid[2] == 1 ? "" : "x" + std::to_string(grid[2])); }
+std::string text_of(const Grid& grid) {
+  return std::to_string(grid[0]) + "x" + std::to_string(grid[1]) + (grid[2] == 1 ? "" : "x" + std::to_string(grid[2]));
+}
 
 // A kernel may have to shade all groups, and one dispatch runs them along one axis.
 bool check_group_limit(const User& user, const Grid& grid, dsl::Diagnostics& diagnostics) {
@@ -52,7 +54,8 @@ bool check_group_limit(const User& user, const Grid& grid, dsl::Diagnostics& dia
   return false;
 }
 
-bool check_masks(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents, dsl::Diagnostics& diagnostics) {
+bool check_masks(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents,
+                 dsl::Diagnostics& diagnostics) {
   const dsl::Resource& masks = resource_of(program, user, user.pass->masks);
   const int64_t count = masks.count.valid() ? dsl::evaluate(program, masks.count, extents) : 0, wanted = grid[0] * grid[1] * grid[2];
   if (!masks.count.valid() || count == wanted) return true;
@@ -60,7 +63,8 @@ bool check_masks(const dsl::Program& program, const User& user, const Grid& grid
   return false;
 }
 
-bool check_kernel_image(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents, dsl::Diagnostics& diagnostics) {
+bool check_kernel_image(const dsl::Program& program, const User& user, const Grid& grid, const std::vector<int64_t>& extents,
+                        dsl::Diagnostics& diagnostics) {
   if (user.pass->kernels == dsl::kAll) return true;
   const dsl::Resource& image = resource_of(program, user, user.pass->kernels);
   Grid texels = {1, 1, 1};
@@ -211,8 +215,8 @@ CostModel fitted(uint32_t features, std::vector<std::pair<Mask, double>> samples
 }
 
 // Costs from the statistics of real kernels: a sample first, then whatever was chosen, until nothing is chosen unseen. `times` are known better.
-ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, SpectrumProblem& problem, const Times& times,
-                                const ReadFile& read, const dsl::SourceFiles& files, const SpectrumOptions& options) {
+ModeChoice choose_by_statistics(const dsl::Program& program, const User& user, SpectrumProblem& problem, const Times& times, const ReadFile& read,
+                                const dsl::SourceFiles& files, const SpectrumOptions& options) {
   constexpr int kRounds = 6;
   problem.costs.work.features.assign(problem.features, 0.1);
   std::set<Mask> wanted = sampled_sets(problem), known;
@@ -282,7 +286,8 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
     const dsl::Spectrum& spectrum = program.spectra.rows[s];
     auto profile = find_profile(spectrum, read, read_override, options, diagnostics);
     if (!good || diagnostics.has_errors()) continue;
-    SpectrumChoice& row = choices.emplace_back(SpectrumChoice{dsl::SpectrumId{s}, users[0].pass->name, profile, make_problem(spectrum, profile, options)});
+    SpectrumChoice& row =
+        choices.emplace_back(SpectrumChoice{dsl::SpectrumId{s}, users[0].pass->name, profile, make_problem(spectrum, profile, options)});
     const Times times = closed_times(row.problem, profile);
     if (tell_apart(row.problem.features, times)) {
       row.problem.costs = fitted(row.problem.features, times);
@@ -298,7 +303,8 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
 
 std::vector<KernelSets> kernel_sets(const std::vector<SpectrumChoice>& choices) {
   std::vector<KernelSets> sets;
-  for (const SpectrumChoice& choice : choices) sets.push_back({choice.spectrum, choice.choice.modes, group_shares(choice.problem, choice.choice.modes)});
+  for (const SpectrumChoice& choice : choices)
+    sets.push_back({choice.spectrum, choice.choice.modes, group_shares(choice.problem, choice.choice.modes)});
   return sets;
 }
 

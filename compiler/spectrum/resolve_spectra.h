@@ -32,8 +32,8 @@ struct SpectrumOptions {
   const ShaderCache* cache = nullptr;
   unsigned workers = 0;
   std::function<void(std::string_view)> progress;
-  // Of an earlier build: where the shader alone has changed since, its kernels are taken again, instead of building dozens to choose among. They still
-  // serve every mask; what they cost is no longer known. Null: nothing is taken.
+  // Of an earlier build: where the shader alone has changed since, its kernels are taken again, instead of building dozens to choose among. They
+  // still serve every mask; what they cost is no longer known. Null: nothing is taken.
   const std::vector<SpectrumChoice>* earlier = nullptr;
 };
 

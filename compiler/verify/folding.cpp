@@ -125,7 +125,8 @@ class Run {
     if (row.kind == dsl::ResourceKind::buffer) return {{access.resource.value, access.age, 0, 0, 0}};
     const uint32_t aspects = aspects_of(row, access);
     const bool one_mip = is_target(access) || access.role == Role::depth_readonly;
-    const uint32_t mips = one_mip ? 1 : std::min(access.range.mips, row.mips - access.range.mip), layers = std::min(access.range.layers, row.layers - access.range.layer);
+    const uint32_t mips = one_mip ? 1 : std::min(access.range.mips, row.mips - access.range.mip),
+                   layers = std::min(access.range.layers, row.layers - access.range.layer);
     std::vector<Location> all;
     for (uint32_t aspect = 1; aspect <= 4; aspect *= 2)
       for (uint32_t mip = 0; mip < mips && (aspects & aspect) != 0; ++mip)
@@ -139,7 +140,8 @@ class Run {
     std::vector<uint32_t> terms;
     const bool cleared = is_target(access) && access.clear && access.range.slices == dsl::kAll;
     if (!cleared && !looks(access)) return terms;
-    for (const Location& at : locations(access)) terms.push_back(cleared ? language_.clear(*access.clear, at[2]) : language_.under(conditions_of(pass), term(at)));
+    for (const Location& at : locations(access))
+      terms.push_back(cleared ? language_.clear(*access.clear, at[2]) : language_.under(conditions_of(pass), term(at)));
     return terms;
   }
 
@@ -209,14 +211,16 @@ class Check {
   }
 
   void check_gone(const Pass& pass) {
-    const bool plain = pass.kind == dsl::PassKind::transfer && std::all_of(pass.transfers.begin(), pass.transfers.end(), [](const dsl::Transfer& transfer) {
-      return transfer.kind == dsl::TransferKind::clear || transfer.kind == dsl::TransferKind::resolve;
-    });
+    const bool plain =
+        pass.kind == dsl::PassKind::transfer && std::all_of(pass.transfers.begin(), pass.transfers.end(), [](const dsl::Transfer& transfer) {
+          return transfer.kind == dsl::TransferKind::clear || transfer.kind == dsl::TransferKind::resolve;
+        });
     if (!plain) report(Hazard::missing_pass, nullptr, pass.name, "is gone, and does more than to clear and resolve");
     if (pass.keep) report(Hazard::missing_pass, nullptr, pass.name, "is gone, though it is to be kept");
     for (const dsl::PassId id : pass.after)
       report(Hazard::order, nullptr, pass.name, "is gone, though it comes `after` `" + apart_.passes[id].name + "`");
-    if (pass.queue != dsl::QueueKind::graphics && !pass.queue_may) report(Hazard::submission, nullptr, pass.name, "is gone from the queue that it orders");
+    if (pass.queue != dsl::QueueKind::graphics && !pass.queue_may)
+      report(Hazard::submission, nullptr, pass.name, "is gone from the queue that it orders");
   }
 
   void compare(const Pass& a, const Pass& b) {
@@ -236,7 +240,8 @@ class Check {
     while (at < seen.size() && at < now.size() && seen[at] == now[at]) ++at;
     if (at == seen.size() && at == now.size()) return;
     const auto text = [&](const std::vector<uint32_t>& terms) { return at < terms.size() ? language_.text(terms[at]) : std::string("nothing"); };
-    report(Hazard::wrong_version, &access, pass.name, "sees " + text(now) + " in `" + apart_.resources[access.resource].name + "`, and " + text(seen) + " as written");
+    report(Hazard::wrong_version, &access, pass.name,
+           "sees " + text(now) + " in `" + apart_.resources[access.resource].name + "`, and " + text(seen) + " as written");
   }
 
   // All but accesses, and resolves at the end.
@@ -264,7 +269,8 @@ class Check {
     const dsl::Resource& image = apart_.resources[x.resource];
     const bool whole = x.range.slices == dsl::kAll && image.dimension != dsl::Dimension::d3;
     const bool own_format = x.view == dsl::Format::none || x.view == image.format;
-    if (begins && !(whole && own_format)) report(Hazard::invalid_plan, &x, pass.name, "clears part of `" + image.name + "`, or through another format");
+    if (begins && !(whole && own_format))
+      report(Hazard::invalid_plan, &x, pass.name, "clears part of `" + image.name + "`, or through another format");
   }
 
   void check_resolve(const Pass& pass, const dsl::Transfer& transfer) {
@@ -272,12 +278,15 @@ class Check {
       return report(Hazard::invalid_plan, nullptr, pass.name, "has a transfer that is no resolve of a rendering");
     const Access &from = pass.accesses.at(transfer.src), &to = pass.accesses.at(transfer.dst);
     const dsl::Resource &source = folded_.resources[from.resource], &target = folded_.resources[to.resource];
-    const bool formats = source.format == target.format && to.view == dsl::Format::none && (from.view == dsl::Format::none || from.view == source.format);
-    const bool sizes = source.width == target.width && source.height == target.height && from.range.mip == to.range.mip && source.samples > 1 && target.samples == 1;
+    const bool formats =
+        source.format == target.format && to.view == dsl::Format::none && (from.view == dsl::Format::none || from.view == source.format);
+    const bool sizes =
+        source.width == target.width && source.height == target.height && from.range.mip == to.range.mip && source.samples > 1 && target.samples == 1;
     const bool roles = from.role == Role::color && to.role == Role::resolve_dst && to.mode == Mode::write && target.dimension != dsl::Dimension::d3;
     if (!formats || !sizes || !roles || after_.locations(from).size() != after_.locations(to).size())
       report(Hazard::invalid_plan, &from, pass.name, "cannot resolve `" + source.name + "` to `" + target.name + "`");
-    if (is_integer(source.format)) report(Hazard::invalid_plan, &from, pass.name, "resolves integers of `" + source.name + "`, of which commands keep any sample");
+    if (is_integer(source.format))
+      report(Hazard::invalid_plan, &from, pass.name, "resolves integers of `" + source.name + "`, of which commands keep any sample");
   }
   static bool is_integer(dsl::Format format) {
     const std::string name = dsl::name(format);
@@ -292,8 +301,9 @@ class Check {
       const dsl::Resource& row = apart_.resources.rows[at[0]];
       const bool lasts = row.lifetime != dsl::Lifetime::transient || row.is_output;
       if (lasts && before_.term(at) != after_.term(at))
-        findings_.push_back({Hazard::wrong_version, row.name, "", "",
-                             "`" + row.name + "` ends as " + language_.text(after_.term(at)) + ", and as " + language_.text(before_.term(at)) + " as written"});
+        findings_.push_back(
+            {Hazard::wrong_version, row.name, "", "",
+             "`" + row.name + "` ends as " + language_.text(after_.term(at)) + ", and as " + language_.text(before_.term(at)) + " as written"});
     }
   }
 
@@ -306,7 +316,8 @@ class Check {
 
 }  // namespace
 
-std::vector<Finding> verify_folding(const dsl::Program& apart, const dsl::Program& folded, dsl::GraphId graph, const std::vector<uint32_t>& configuration) {
+std::vector<Finding> verify_folding(const dsl::Program& apart, const dsl::Program& folded, dsl::GraphId graph,
+                                    const std::vector<uint32_t>& configuration) {
   return Check(apart.graphs[graph], folded.graphs[graph], configuration).run();
 }
 

@@ -19,9 +19,8 @@ using Location = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>;
 using Versions = std::map<Location, std::string>;  // who wrote last; none: nobody in this frame
 
 bool holds(const dsl::Guard& guard, const std::vector<uint32_t>& configuration) {
-  return std::all_of(guard.terms.begin(), guard.terms.end(), [&](const dsl::Guard::Term& term) {
-    return (configuration.at(term.feature.value) == term.value) != term.negated;
-  });
+  return std::all_of(guard.terms.begin(), guard.terms.end(),
+                     [&](const dsl::Guard::Term& term) { return (configuration.at(term.feature.value) == term.value) != term.negated; });
 }
 
 std::vector<Location> locations(const dsl::Graph& graph, const Access& access) {
@@ -89,7 +88,8 @@ class Check {
       for (const std::string& name : members_of(pass.name)) {
         const auto found = as_written.find(name);
         const Pass* member = found == as_written.end() ? nullptr : found->second;
-        if (member == nullptr) report(Hazard::missing_pass, nullptr, pass.name, name, "kernel `" + pass.name + "` runs `" + name + "`, which is no pass");
+        if (member == nullptr)
+          report(Hazard::missing_pass, nullptr, pass.name, name, "kernel `" + pass.name + "` runs `" + name + "`, which is no pass");
         if (member != nullptr) unit.members.push_back(member);
         ++runs[name];
       }
@@ -136,11 +136,13 @@ class Check {
   void check_version(const Unit& unit, const Pass& member, const Access& access, const Location& at) {
     const std::string &expected = seen_[{&access, at}], &found = now_[at];
     if (kept_.contains(at) && kept_[at] != unit.pass)
-      report(Hazard::lost_contents, &access, kept_[at]->name, member.name,
-             "`" + member.name + "` reads `" + written_.resources[access.resource].name + "`, which kernel `" + kept_[at]->name + "` keeps to itself");
+      report(
+          Hazard::lost_contents, &access, kept_[at]->name, member.name,
+          "`" + member.name + "` reads `" + written_.resources[access.resource].name + "`, which kernel `" + kept_[at]->name + "` keeps to itself");
     if (expected != found)
-      report(Hazard::wrong_version, &access, member.name, found,
-             "`" + member.name + "` reads `" + written_.resources[access.resource].name + "` of `" + found + "`, and of `" + expected + "` as written");
+      report(
+          Hazard::wrong_version, &access, member.name, found,
+          "`" + member.name + "` reads `" + written_.resources[access.resource].name + "` of `" + found + "`, and of `" + expected + "` as written");
   }
 
   // ---- one kernel
@@ -155,7 +157,8 @@ class Check {
       for (const Pass* other : unit.members) {
         const bool both = member->block && other->block && member->block->scan != dsl::kAll && other->block->scan != dsl::kAll;
         if (both && member->block->scan != other->block->scan)
-          report(Hazard::invalid_plan, nullptr, member->name, other->name, "`" + member->name + "` and `" + other->name + "` scan along different axes");
+          report(Hazard::invalid_plan, nullptr, member->name, other->name,
+                 "`" + member->name + "` and `" + other->name + "` scan along different axes");
       }
     }
   }
@@ -171,7 +174,8 @@ class Check {
   void check_pair(const Pass& first, const Access& a, const Pass& second, const Access& b) {
     if (a.resource != b.resource || (!writes(a) && !writes(b))) return;
     const std::vector<Location> left = locations(written_, a), right = locations(written_, b);
-    const bool meet = std::any_of(left.begin(), left.end(), [&](const Location& at) { return std::find(right.begin(), right.end(), at) != right.end(); });
+    const bool meet =
+        std::any_of(left.begin(), left.end(), [&](const Location& at) { return std::find(right.begin(), right.end(), at) != right.end(); });
     const bool alike = a.element && b.element && left == right && a.view == b.view;
     const bool commute = a.mode == Mode::atomic && b.mode == Mode::atomic;
     if (!meet || alike || commute) return;
@@ -219,7 +223,8 @@ class Check {
     const dsl::Resource& resource = written_.resources.rows[std::get<0>(at)];
     const bool lasts = resource.lifetime != dsl::Lifetime::transient || resource.is_output;
     if (need.reads || lasts || need.atomic || unit.members.size() == 1)
-      report(Hazard::lost_contents, nullptr, unit.pass->name, "", "kernel `" + unit.pass->name + "` does not touch `" + name + "`, which its blocks do");
+      report(Hazard::lost_contents, nullptr, unit.pass->name, "",
+             "kernel `" + unit.pass->name + "` does not touch `" + name + "`, which its blocks do");
     kept_[at] = unit.pass;
   }
 
@@ -228,7 +233,8 @@ class Check {
       const dsl::Resource& resource = written_.resources.rows[std::get<0>(at)];
       const bool lasts = resource.lifetime != dsl::Lifetime::transient || resource.is_output;
       if (lasts && now_[at] != version)
-        report(Hazard::wrong_version, nullptr, version, now_[at], "`" + resource.name + "` ends as `" + now_[at] + "` left it, and as `" + version + "` did as written");
+        report(Hazard::wrong_version, nullptr, version, now_[at],
+               "`" + resource.name + "` ends as `" + now_[at] + "` left it, and as `" + version + "` did as written");
     }
   }
 
@@ -237,15 +243,15 @@ class Check {
   const std::vector<Kernel>& kernels_;
   std::vector<Unit> units_;
   std::map<std::pair<const Access*, Location>, std::string> seen_;  // what each read sees as written
-  Versions last_, now_;  // as written, as planned
+  Versions last_, now_;                                             // as written, as planned
   std::map<Location, const Pass*> kept_;
   std::vector<Finding> findings_;
 };
 
 }  // namespace
 
-std::vector<Finding> verify_fusion(const dsl::Program& written, const dsl::Program& fused, dsl::GraphId graph, const std::vector<uint32_t>& configuration,
-                                   const std::vector<Kernel>& kernels) {
+std::vector<Finding> verify_fusion(const dsl::Program& written, const dsl::Program& fused, dsl::GraphId graph,
+                                   const std::vector<uint32_t>& configuration, const std::vector<Kernel>& kernels) {
   return Check(written.graphs[graph], fused.graphs[graph], configuration, kernels).run();
 }
 

@@ -37,14 +37,17 @@ std::string Harmless::without_contents(const ImageBarrier& barrier) {
 std::string Harmless::narrower(Index image_barrier, uint32_t mip, uint32_t layer) const {
   const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
   if (barrier.src_queue != barrier.dst_queue) return "";
-  if (barrier.old_layout == barrier.new_layout && barrier.src_accesses == 0 && barrier.dst_accesses == 0) return "range of a barrier that only orders";
+  if (barrier.old_layout == barrier.new_layout && barrier.src_accesses == 0 && barrier.dst_accesses == 0)
+    return "range of a barrier that only orders";
   return barrier.old_layout == Layout::undefined && leaves_layout(image_barrier, mip, layer) ? "part of a discard whose layout stays" : "";
 }
 
 // Barriers are wide where neighbours need the same: of a part that is in the new layout anyway, others may say all there is to say.
 bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const {
   const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
-  const auto holds = [&](const Ref& ref, const Range& range) { return ref == barrier.image && meet(range, {barrier.range.aspects, mip, 1, layer, 1}); };
+  const auto holds = [&](const Ref& ref, const Range& range) {
+    return ref == barrier.image && meet(range, {barrier.range.aspects, mip, 1, layer, 1});
+  };
   Layout before = Layout::undefined;
   for (const Boundary& entry : plan_.entry)
     if (holds(entry.ref, entry.range)) before = entry.layout;
@@ -140,15 +143,15 @@ bool Harmless::runs_always(Index pass) const {
 bool Harmless::commutes_in(Index pass, Ref ref) const {
   if (pass >= program_pass_.size() || program_pass_[pass] >= graph_.passes.size()) return false;
   const auto& accesses = graph_.passes.rows[program_pass_[pass]].accesses;
-  return std::all_of(accesses.begin(), accesses.end(), [&](const dsl::Access& access) {
-    return access.resource.value != program_resource_[ref.resource] || commutes(access);
-  });
+  return std::all_of(accesses.begin(), accesses.end(),
+                     [&](const dsl::Access& access) { return access.resource.value != program_resource_[ref.resource] || commutes(access); });
 }
 
 // Two writers of contents that nobody reads may follow each other in any order.
 bool Harmless::is_read(Ref ref) const {
   if (plan_.resources[ref.resource].lifetime != Lifetime::transient) return true;
-  return std::any_of(plan_.accesses.begin(), plan_.accesses.end(), [&](const Access& row) { return row.ref == ref && (row.accesses & ~kWriting) != 0; });
+  return std::any_of(plan_.accesses.begin(), plan_.accesses.end(),
+                     [&](const Access& row) { return row.ref == ref && (row.accesses & ~kWriting) != 0; });
 }
 
 }  // namespace rg::verify

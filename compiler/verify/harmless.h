@@ -29,7 +29,9 @@ class Harmless {
   std::string exchanged(Index first_step, Index second_step) const;
 
  private:
-  std::span<const Access> accesses_of(Index pass) const { return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count); }
+  std::span<const Access> accesses_of(Index pass) const {
+    return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count);
+  }
   bool draws_to(const Pass& pass, Index attachment) const;
   bool leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const;
   bool depend(Index a, Index b, Index after) const;

@@ -31,7 +31,7 @@ struct Use {
   std::vector<uint32_t> orders;  // by cell: commuting writers share a number; 0 none
   std::vector<Touch> touches;
   bool attachment = false, uses_contents = false, writes = false, commutes = false, clears = false;
-  bool own_slices = false;  // clears or covers slices of a volume: load operations may drop those, and no others
+  bool own_slices = false;     // clears or covers slices of a volume: load operations may drop those, and no others
   LoadOp load = LoadOp::load;  // attachments
   StoreOp store = StoreOp::store;
 };
@@ -85,7 +85,7 @@ struct GroupNode {
   StageSet src_earlier = 0, dst_later = 0;  // of all
   std::vector<uint32_t> memory;             // scopes of kind memory
   std::vector<uint32_t> handed_over;        // plan's acquires of buffers that a pair lets take over memory here
-  uint32_t alike = kNone;                   // signals and waits: a number for those of the queue with the same stages and queues, whatever they count to
+  uint32_t alike = kNone;  // signals and waits: a number for those of the queue with the same stages and queues, whatever they count to
 };
 
 struct StepNode {

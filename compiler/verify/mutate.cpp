@@ -182,7 +182,8 @@ class Mutator {
         &Plan::image_barriers, at, [&](ImageBarrier& b) { b.new_layout = other; }, what + ", another new layout");
     if (row.old_layout != Layout::undefined)
       change(
-          &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded", harmless_.without_contents(row));
+          &Plan::image_barriers, at, [](ImageBarrier& b) { b.old_layout = Layout::undefined; }, what + ", contents discarded",
+          harmless_.without_contents(row));
     if (row.range.mips != kRemaining && row.range.mips > 1)
       change(
           &Plan::image_barriers, at, [](ImageBarrier& b) { --b.range.mips; }, what + ", last mip left out",
@@ -225,8 +226,7 @@ class Mutator {
     clear_bits(&Plan::releases, at, &Release::accesses, what + ", accesses", harmless);
     if (plan_.releases[at].point > 0)
       change(
-          &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early",
-          either(harmless_.released_earlier(at), harmless));
+          &Plan::releases, at, [](Release& r) { --r.point; }, what + ", a point too early", either(harmless_.released_earlier(at), harmless));
   }
 
   // Of buffers; an image's own barrier says what its acquire says.
@@ -354,8 +354,7 @@ class Mutator {
     Plan mutant = plan_;
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
-    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged",
-          harmless_.exchanged(at, next));
+    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged", harmless_.exchanged(at, next));
   }
 
   // ---- placement ------------------------------------------------------------------------------------------------------------

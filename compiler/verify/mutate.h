@@ -9,8 +9,8 @@
 //   hand-off           stage or access bit of a release or an acquire cleared; release a point too early; clock a point too far
 //   placement          bytes of two resources that live at once
 //
-// A survivor that changes nothing belongs to a named class, and a second, independent opinion must agree that it changes nothing; any other survivor is a
-// hole in the checker.
+// A survivor that changes nothing belongs to a named class, and a second, independent opinion must agree that it changes nothing; any other survivor
+// is a hole in the checker.
 #pragma once
 
 #include <functional>
@@ -36,8 +36,8 @@ struct MutationReport {
 
 struct MutateOptions {
   size_t every = 1, first = 0;  // try every n-th mutant, after `first` others
-  // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about mutants that verify() accepts, and about
-  // every n-th that it rejects, but no more than so many times for each class and each kind; about survivors without a class always.
+  // True if the plan misbehaves, by a judge that shares nothing with verify(): the abstract machine. Asked about mutants that verify() accepts, and
+  // about every n-th that it rejects, but no more than so many times for each class and each kind; about survivors without a class always.
   std::function<bool(const Plan&)> misbehaves = {};
   size_t ask_every = 0, ask_at_most = SIZE_MAX;
   std::function<void(size_t done)> progress = {};

@@ -41,8 +41,8 @@ bool retires_frame(const Model& model, const Scope& scope) { return scope.kind =
 
 bool is_constant(const dsl::Program& program, dsl::ExprId id) { return !id.valid() || program.exprs[id].op == dsl::ExprOp::constant; }
 
-// Of the extents: those of the model, then all corners of their bounds where those are few, and some between them. What is linear in every extent, as sizes are but for
-// rounding, is least and greatest in corners.
+// Of the extents: those of the model, then all corners of their bounds where those are few, and some between them. What is linear in every extent, as
+// sizes are but for rounding, is least and greatest in corners.
 std::vector<std::vector<int64_t>> sampled_extents(const dsl::Program& program, const std::vector<int64_t>& here) {
   constexpr size_t kMostAxes = 6, kRandom = 200;
   std::vector<int64_t> least, greatest;
@@ -94,7 +94,8 @@ std::vector<bool> cut_by_extents(const Model& model, const std::vector<int64_t>&
   const auto add = [&](uint32_t resource, dsl::ExprId offset, dsl::ExprId size, int64_t stride) {
     Edge edge;
     for (const std::vector<int64_t>& sample : samples)
-      edge.push_back((offset.valid() ? dsl::evaluate(program, offset, sample) : 0) + (size.valid() ? dsl::evaluate(program, size, sample) * stride : 0));
+      edge.push_back((offset.valid() ? dsl::evaluate(program, offset, sample) : 0) +
+                     (size.valid() ? dsl::evaluate(program, size, sample) * stride : 0));
     if (std::find(edges[resource].begin(), edges[resource].end(), edge) == edges[resource].end()) edges[resource].push_back(std::move(edge));
   };
   for (const dsl::Pass& pass : model.input->graph.passes)

@@ -121,7 +121,8 @@ void rely_on_all(Replay& replay, ReleaseTrack& track, bool before, uint32_t from
   if (!replay.history.proofs || clock == kNone) return;
   const FollowedQueue& releases = (before ? track.before : track.now)[from];
   size_t& next = track.relied[{before, from, queue, sources}];
-  for (; next < releases.size() && plan_of(replay).releases[releases[next].release].point <= clock; ++next) rely_on(replay, releases[next], queue, sources);
+  for (; next < releases.size() && plan_of(replay).releases[releases[next].release].point <= clock; ++next)
+    rely_on(replay, releases[next], queue, sources);
 }
 
 // Releases of this frame that are not reached in listed order are not over.

@@ -28,15 +28,15 @@ struct FollowedRelease {
 using FollowedQueue = std::vector<FollowedRelease>;
 
 struct ReleaseTrack {
-  bool active = false;                                                    // some resource may take over memory
-  std::vector<std::vector<std::vector<uint32_t>>> at_point;               // releases by queue and point
-  std::vector<std::vector<uint32_t>> acquires_of_group;                   // by plan group
-  std::vector<uint32_t> points;                                           // by queue: how many of this frame have passed
-  std::vector<FollowedQueue> now, before;                                 // by queue: of this frame and of the one before
-  std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> over;  // (before, of queue, at queue, first scope): so many are over
+  bool active = false;                                                      // some resource may take over memory
+  std::vector<std::vector<std::vector<uint32_t>>> at_point;                 // releases by queue and point
+  std::vector<std::vector<uint32_t>> acquires_of_group;                     // by plan group
+  std::vector<uint32_t> points;                                             // by queue: how many of this frame have passed
+  std::vector<FollowedQueue> now, before;                                   // by queue: of this frame and of the one before
+  std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> over;    // (before, of queue, at queue, first scope): so many are over
   std::map<std::tuple<bool, uint32_t, uint32_t, StageSet>, size_t> relied;  // the same: of so many a clock says that they are over
-  std::vector<Release> used;                                              // by release: bits that wait for something
-  std::vector<bool> gives;                                                // by plan resource: its memory may be given away
+  std::vector<Release> used;                                                // by release: bits that wait for something
+  std::vector<bool> gives;                                                  // by plan resource: its memory may be given away
 };
 ReleaseTrack make_release_track(const Model& model);
 

@@ -262,12 +262,14 @@ void check_feedback(const Usage& usage, const PassNode& node) {
 void check_lazy(const Model& model, Report& report) {
   const Input& input = *model.input;
   const auto refuse = [&](Index r, const std::string& text) {
-    report.add({Hazard::lost_contents, model.resource(r).name, "", "", "`" + model.resource(r).name + "` is in lazily allocated memory, and " + text});
+    report.add(
+        {Hazard::lost_contents, model.resource(r).name, "", "", "`" + model.resource(r).name + "` is in lazily allocated memory, and " + text});
   };
   for (Index r = 0; r < input.plan.resources.size(); ++r) {
     if (!input.plan.resources[r].lazy) continue;
     const dsl::Resource& source = input.graph.resources.rows[input.program_resource[r]];
-    if (source.kind != dsl::ResourceKind::image || source.lifetime != dsl::Lifetime::transient || source.is_output) refuse(r, "is no image that only this frame sees");
+    if (source.kind != dsl::ResourceKind::image || source.lifetime != dsl::Lifetime::transient || source.is_output)
+      refuse(r, "is no image that only this frame sees");
     for (const Attachment& row : input.plan.attachments) {
       const bool loads = row.load == LoadOp::load, stores = row.store == StoreOp::store;
       if (row.ref.resource == r && (loads || stores)) refuse(r, loads ? "a rendering loads it" : "a rendering stores it");
@@ -275,8 +277,10 @@ void check_lazy(const Model& model, Report& report) {
     }
     for (const PassNode& node : model.passes)
       for (const dsl::Access& access : model.pass(node.plan_pass).accesses) {
-        const bool drawn = access.role == dsl::Role::color || access.role == dsl::Role::depth || access.role == dsl::Role::depth_readonly || access.role == dsl::Role::stencil;
-        if (access.resource.value == input.program_resource[r] && !drawn) refuse(r, "`" + model.pass_name(node.plan_pass) + "` uses it otherwise than as an attachment");
+        const bool drawn = access.role == dsl::Role::color || access.role == dsl::Role::depth || access.role == dsl::Role::depth_readonly ||
+                           access.role == dsl::Role::stencil;
+        if (access.resource.value == input.program_resource[r] && !drawn)
+          refuse(r, "`" + model.pass_name(node.plan_pass) + "` uses it otherwise than as an attachment");
       }
   }
 }

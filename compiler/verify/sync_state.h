@@ -100,11 +100,11 @@ struct CellState {
   std::vector<ReadRecord> reads;
   std::vector<WriteRecord> writes;
   Layout layout = Layout::undefined;
-  uint32_t layout_scope = kNone;  // the barrier that set it
-  uint32_t owner = kNone;         // queue; kNone: whoever comes first
-  uint32_t released_by = kNone;   // a release whose acquire has not come
+  uint32_t layout_scope = kNone;       // the barrier that set it
+  uint32_t owner = kNone;              // queue; kNone: whoever comes first
+  uint32_t released_by = kNone;        // a release whose acquire has not come
   std::vector<uint32_t> owner_scopes;  // release and acquire, or the discard, that made `owner` the owner
-  Without without;                // only where proofs are kept, until the next write
+  Without without;                     // only where proofs are kept, until the next write
 };
 
 struct Executed {

@@ -124,8 +124,8 @@ void check_resolves(const Work& work, const Rendering& rendering) {
   }
 }
 
-// What the access names beside the subresource: slices of a volume, and whether it is seen in another format. (Numbers of formats are no business of the
-// checker.)
+// What the access names beside the subresource: slices of a volume, and whether it is seen in another format. (Numbers of formats are no business of
+// the checker.)
 bool same_view(const Work& work, const Attachment& row, const dsl::Access& access) {
   const dsl::Resource& image = work.model.resource(access.resource.value);
   const Format own = work.model.input->plan.resources[row.ref.resource].format;
@@ -136,7 +136,9 @@ bool same_view(const Work& work, const Attachment& row, const dsl::Access& acces
   return is_slice(access) ? row.slice == access.range.slice && row.slices == access.range.slices : row.slice == 0 && row.slices == depth;
 }
 
-bool is_target(dsl::Role role) { return role == dsl::Role::color || role == dsl::Role::depth || role == dsl::Role::depth_readonly || role == dsl::Role::stencil; }
+bool is_target(dsl::Role role) {
+  return role == dsl::Role::color || role == dsl::Role::depth || role == dsl::Role::depth_readonly || role == dsl::Role::stencil;
+}
 
 void check_targets(const Work& work, const Rendering& rendering) {
   const auto& attachments = work.model.input->plan.attachments;
@@ -146,14 +148,17 @@ void check_targets(const Work& work, const Rendering& rendering) {
     if (!is_target(access.role)) continue;
     const Shape& shape = work.model.resources[access.resource.value].partition.shape;
     const Box box = box_of(work.model.input->program, shape, effective_range(access, shape.aspects), work.extents);
-    const Index index = access.role == dsl::Role::color ? rendering.first_color + color++ : access.role == dsl::Role::stencil ? rendering.stencil : rendering.depth;
+    const Index index = access.role == dsl::Role::color     ? rendering.first_color + color++
+                        : access.role == dsl::Role::stencil ? rendering.stencil
+                                                            : rendering.depth;
     if (index >= attachments.size() || !names_access(work, attachments[index].ref, a)) continue;  // reported with its contents
     if (!same_view(work, attachments[index], access)) report_work(work, a, "the attachment is seen otherwise than declared");
     layers = std::min(layers, attachments[index].slices != 0 ? attachments[index].slices : static_cast<uint32_t>(box.layer_end - box.layer_begin));
   }
   if (layers == kNone) return;
   if (rendering.layers != layers) report_work(work, dsl::kAll, "the rendering has another number of layers than declared");
-  if (rendering.view_mask != (work.pass.multiview ? (1u << layers) - 1 : 0u)) report_work(work, dsl::kAll, "the rendering has other views than declared");
+  if (rendering.view_mask != (work.pass.multiview ? (1u << layers) - 1 : 0u))
+    report_work(work, dsl::kAll, "the rendering has other views than declared");
 }
 
 void check_clears(const Work& work, const Rendering& rendering) {
@@ -192,7 +197,8 @@ void check_draw(const Work& work) {
   const rg::Work& planned = work.plan.work;
   if (planned.kind == WorkKind::host || work.pass.kind != dsl::PassKind::raster) return;
   if (declared.kind == dsl::DrawKind::direct) {
-    if (planned.kind != (declared.indexed ? WorkKind::draw_indexed : WorkKind::draw)) report_work(work, dsl::kAll, "the plan draws in another way than declared");
+    if (planned.kind != (declared.indexed ? WorkKind::draw_indexed : WorkKind::draw))
+      report_work(work, dsl::kAll, "the plan draws in another way than declared");
     if (!same_value(work, planned.x, declared.vertices, 1) || !same_value(work, planned.y, declared.instances, 1) ||
         !same_value(work, planned.first, declared.first, 0) || !same_value(work, planned.vertex_offset, declared.offset, 0))
       report_work(work, dsl::kAll, "the plan draws other vertices than declared");

@@ -21,9 +21,16 @@ struct TexelLayout {
   bool blue_first = false;
 };
 constexpr TexelLayout kLayouts[] = {
-    {VK_FORMAT_R8_UNORM, 1, 8},           {VK_FORMAT_R8G8_UNORM, 2, 8},           {VK_FORMAT_R8G8B8A8_UNORM, 4, 8}, {VK_FORMAT_B8G8R8A8_UNORM, 4, 8, true},
-    {VK_FORMAT_R16_UNORM, 1, 16},         {VK_FORMAT_R16G16_UNORM, 2, 16},        {VK_FORMAT_R16G16B16A16_UNORM, 4, 16},
-    {VK_FORMAT_R32_UINT, 1, 32},          {VK_FORMAT_R32G32_UINT, 2, 32},         {VK_FORMAT_R32G32B32A32_UINT, 4, 32},
+    {VK_FORMAT_R8_UNORM, 1, 8},
+    {VK_FORMAT_R8G8_UNORM, 2, 8},
+    {VK_FORMAT_R8G8B8A8_UNORM, 4, 8},
+    {VK_FORMAT_B8G8R8A8_UNORM, 4, 8, true},
+    {VK_FORMAT_R16_UNORM, 1, 16},
+    {VK_FORMAT_R16G16_UNORM, 2, 16},
+    {VK_FORMAT_R16G16B16A16_UNORM, 4, 16},
+    {VK_FORMAT_R32_UINT, 1, 32},
+    {VK_FORMAT_R32G32_UINT, 2, 32},
+    {VK_FORMAT_R32G32B32A32_UINT, 4, 32},
 };
 
 const TexelLayout* find_layout(uint32_t format) {

@@ -14,8 +14,8 @@ struct FloatPicture {  // four channels a texel, rows from the top
   std::vector<float> texels;
 };
 
-// Layers and slices one below the other. Missing channels are 0, alpha 1. `unsupported` for formats whose texels are not 8, 16 or 32 bits a channel or
-// a packed float.
+// Layers and slices one below the other. Missing channels are 0, alpha 1. `unsupported` for formats whose texels are not 8, 16 or 32 bits a channel
+// or a packed float.
 Result<FloatPicture> decode_dump(const Dump& dump);
 
 // OpenEXR, 32-bit floats, uncompressed: the values as they are.

@@ -123,8 +123,9 @@ frame::Fog make_fog(const Scene& scene, const NamedCamera& camera, const FrameSe
   return fog;
 }
 
-constexpr std::string_view kViews[] = {"final",    "lights",   "albedo", "normal",    "depth",    "roughness", "metallic", "diffuse", "specular",
-                                       "emissive", "overflow", "zbin",   "occlusion", "velocity", "forward",   "fog",      "through", "features", "kernels"};
+constexpr std::string_view kViews[] = {"final",   "lights",   "albedo",   "normal",   "depth",  "roughness", "metallic",
+                                       "diffuse", "specular", "emissive", "overflow", "zbin",   "occlusion", "velocity",
+                                       "forward", "fog",      "through",  "features", "kernels"};
 static_assert(std::size(kViews) == frame::DEBUG_COUNT);
 
 }  // namespace

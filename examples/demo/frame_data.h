@@ -15,11 +15,11 @@ struct FrameSettings {
   uint32_t number = 0;  // of the frame
   uint32_t debug_view = frame::DEBUG_FINAL;
   uint32_t light_path = frame::LIGHT_PATH_RECORDS;
-  uint32_t forced_features = 0;  // lamp::, shaded for in every tile
+  uint32_t forced_features = 0;                                // lamp::, shaded for in every tile
   bool fog_sun = true, fog_lights = true, fog_ambient = true;  // light that fog scatters, where there is any
-  bool jitter = true;   // moves the camera within the pixel
-  bool noise = true;    // other variations of each frame; without, fog has no history
-  bool animate = true;  // else the scene stands still at time 0
+  bool jitter = true;                                          // moves the camera within the pixel
+  bool noise = true;                                           // other variations of each frame; without, fog has no history
+  bool animate = true;                                         // else the scene stands still at time 0
 };
 
 struct PropPlacement {

@@ -36,7 +36,8 @@ Result<DumpPoint> find_dump(const Plan& plan, const std::string& text) {
   const size_t dot = text.find('.');
   if (dot == std::string::npos) return Error{ErrorCode::invalid_argument, "`" + text + "` is not of the form PASS.resource"};
   DumpPoint point{find_pass(plan, text.substr(0, dot)), find_resource(plan, text.substr(dot + 1))};
-  if (point.pass == kNone) return Error{ErrorCode::invalid_argument, "there is no pass `" + text.substr(0, dot) + "`; there are " + names_of(plan.passes)};
+  if (point.pass == kNone)
+    return Error{ErrorCode::invalid_argument, "there is no pass `" + text.substr(0, dot) + "`; there are " + names_of(plan.passes)};
   if (point.resource == kNone)
     return Error{ErrorCode::invalid_argument, "there is no resource `" + text.substr(dot + 1) + "`; there are " + names_of(plan.resources)};
   return point;

@@ -52,7 +52,8 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   app.add_option("--dump", options.dumps, "what PASS leaves in a resource, as PNG and EXR in --out; may be repeated")->type_name("PASS.RESOURCE");
   app.add_option("--trace", options.trace, "passes on a time line, for chrome://tracing or Perfetto")->type_name("FILE");
   app.add_option("--profile", options.profile, "measured times of passes, for `rgc --profile`")->type_name("FILE");
-  auto* watch = app.add_option("--watch", options.watch, "go on, and run the plans that `rgc watch` writes to this file as they come")->type_name("FILE");
+  auto* watch =
+      app.add_option("--watch", options.watch, "go on, and run the plans that `rgc watch` writes to this file as they come")->type_name("FILE");
   app.add_option("--reloads", options.reloads, "end after so many changes of the watched file")->needs(watch)->type_name("N");
   app.add_option("--threads", options.threads, "threads that record a frame")->check(CLI::Range(1, 64))->capture_default_str();
   app.add_flag("--serial", options.serial, "every pass waits for all before it");

@@ -21,10 +21,10 @@ struct DemoOptions {
   uint32_t reloads = 0;            // ends the watch after so many attempts; 0: never
   uint32_t threads = 1;
   bool serial = false, poison = false;
-  std::string record_spectrum;     // a file for the feature masks of the tiles; empty: none
-  bool time_kernels = false;       // and what each kernel takes, in that file
-  std::map<std::string, double> weights;  // of cameras in that file; 1 where there is none
-  uint32_t forced_features = 0;           // bits that every tile is shaded with
+  std::string record_spectrum;                                  // a file for the feature masks of the tiles; empty: none
+  bool time_kernels = false;                                    // and what each kernel takes, in that file
+  std::map<std::string, double> weights;                        // of cameras in that file; 1 where there is none
+  uint32_t forced_features = 0;                                 // bits that every tile is shaded with
   std::vector<std::string> fog = {"sun", "lights", "ambient"};  // light that fog scatters
   int device = -1;
   bool validate = false, list_devices = false;

@@ -121,7 +121,8 @@ uint32_t Engine::memory_type(uint32_t bits, VkMemoryPropertyFlags wanted) const 
 }
 
 VkDeviceMemory Engine::allocate(const VkMemoryRequirements& requirements, VkMemoryPropertyFlags wanted) {
-  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, requirements.size, memory_type(requirements.memoryTypeBits, wanted)};
+  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, requirements.size,
+                                  memory_type(requirements.memoryTypeBits, wanted)};
   VkDeviceMemory memory = VK_NULL_HANDLE;
   vkAllocateMemory(device, &info, &allocator, &memory);
   return memory;
@@ -194,7 +195,8 @@ uint64_t Engine::submit(const std::vector<VkCommandBuffer>& commands) {
     vkEndCommandBuffer(one);
     infos.push_back({VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, one, 0});
   }
-  const VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, timeline, ++submitted, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+  const VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, timeline, ++submitted,
+                                     VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,    0};
   VkSubmitInfo2 submit{};
   submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
   submit.commandBufferInfoCount = static_cast<uint32_t>(infos.size());

@@ -1,5 +1,5 @@
-// A graph inside an engine: the engine's device, allocator, pipeline cache, image and buffer. Some frames the runtime submits, waiting for and signalling the
-// engine's timeline; some are recorded into the engine's own command buffers, with its own commands in between.
+// A graph inside an engine: the engine's device, allocator, pipeline cache, image and buffer. Some frames the runtime submits, waiting for and
+// signalling the engine's timeline; some are recorded into the engine's own command buffers, with its own commands in between.
 #include <cstdio>
 #include <cstring>
 
@@ -36,7 +36,9 @@ struct World {
   Engine& engine;
   Buffer lights, pixels;
   Image picture;
-  arena::Imports imports() const { return {.world_lights = rg::ImportedBuffer{lights.handle}, .picture = rg::ImportedImage{picture.handle, picture.view}}; }
+  arena::Imports imports() const {
+    return {.world_lights = rg::ImportedBuffer{lights.handle}, .picture = rg::ImportedImage{picture.handle, picture.view}};
+  }
 };
 
 // The runtime submits; the copy is the engine's own submit before and after.
@@ -74,7 +76,8 @@ int run() {
     auto frame = arena::Frame::create(*device, {.view = {kWidth, kHeight}});
     if (!frame) return complain(frame.error().message);
     for (int i = 0; i < 8; ++i)
-      if (const rg::Status done = i % 2 == 0 ? submitted_frame(world, *frame) : recorded_frame(world, *frame); !done) return complain(done.error().message);
+      if (const rg::Status done = i % 2 == 0 ? submitted_frame(world, *frame) : recorded_frame(world, *frame); !done)
+        return complain(done.error().message);
     engine.wait(engine.submitted);
     std::memcpy(&middle, static_cast<const std::byte*>(world.pixels.mapped) + (kHeight / 2 * kWidth + kWidth * 7 / 10) * 4, sizeof middle);
   }

@@ -20,9 +20,10 @@ XcbWindow::XcbWindow(uint16_t width, uint16_t height, const char* title) : width
   const xcb_screen_t* screen = xcb_setup_roots_iterator(xcb_get_setup(connection_)).data;
   window_ = xcb_generate_id(connection_);
   const uint32_t events = XCB_EVENT_MASK_STRUCTURE_NOTIFY;
-  xcb_create_window(connection_, XCB_COPY_FROM_PARENT, window_, screen->root, 0, 0, width, height, 0, XCB_WINDOW_CLASS_INPUT_OUTPUT, screen->root_visual,
-                    XCB_CW_EVENT_MASK, &events);
-  xcb_change_property(connection_, XCB_PROP_MODE_REPLACE, window_, XCB_ATOM_WM_NAME, XCB_ATOM_STRING, 8, static_cast<uint32_t>(std::strlen(title)), title);
+  xcb_create_window(connection_, XCB_COPY_FROM_PARENT, window_, screen->root, 0, 0, width, height, 0, XCB_WINDOW_CLASS_INPUT_OUTPUT,
+                    screen->root_visual, XCB_CW_EVENT_MASK, &events);
+  xcb_change_property(connection_, XCB_PROP_MODE_REPLACE, window_, XCB_ATOM_WM_NAME, XCB_ATOM_STRING, 8, static_cast<uint32_t>(std::strlen(title)),
+                      title);
   const xcb_atom_t protocols = find_atom(connection_, "WM_PROTOCOLS");
   delete_window_ = find_atom(connection_, "WM_DELETE_WINDOW");
   xcb_change_property(connection_, XCB_PROP_MODE_REPLACE, window_, protocols, XCB_ATOM_ATOM, 32, 1, &delete_window_);
@@ -56,7 +57,8 @@ void XcbWindow::resize(uint16_t width, uint16_t height) {
 }
 
 bool XcbWindow::write_screenshot(const std::string& path) const {
-  const auto cookie = xcb_get_image(connection_, XCB_IMAGE_FORMAT_Z_PIXMAP, window_, 0, 0, static_cast<uint16_t>(width_), static_cast<uint16_t>(height_), ~0u);
+  const auto cookie =
+      xcb_get_image(connection_, XCB_IMAGE_FORMAT_Z_PIXMAP, window_, 0, 0, static_cast<uint16_t>(width_), static_cast<uint16_t>(height_), ~0u);
   xcb_get_image_reply_t* reply = xcb_get_image_reply(connection_, cookie, nullptr);
   if (reply == nullptr) return false;
   const uint8_t* pixels = xcb_get_image_data(reply);  // blue, green, red, unused

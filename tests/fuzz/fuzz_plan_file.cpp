@@ -1,4 +1,5 @@
-// Plans from anywhere: what the loader and check_plan let through runs on the null device - creation, frames, a resize, an invalidation - without a crash.
+// Plans from anywhere: what the loader and check_plan let through runs on the null device - creation, frames, a resize, an invalidation - without a
+// crash.
 //
 //   input: u8 base, then either bytes of a file (base 255), or edits of the plan `base`: u16 which number, u8 how, u8 operand
 #include <algorithm>
@@ -53,21 +54,29 @@ class Numbers {
 
 void add_tables(TestPlan& p, Numbers& numbers) {
   const auto add = [&](auto&... tables) { (numbers.add(tables), ...); };
-  add(p.exprs, p.extents, p.resources, p.queues, p.batches, p.steps, p.waits, p.signals, p.groups, p.memory_barriers, p.image_barriers, p.buffer_barriers,
-      p.entry, p.acquires, p.releases, p.alias_clocks, p.passes, p.accesses, p.renderings, p.attachments, p.shaders, p.pipelines, p.pipeline_shaders,
-      p.bindings, p.samplers, p.params, p.pass_params, p.transfers, p.mip_limits);
+  add(p.exprs, p.extents, p.resources, p.queues, p.batches, p.steps, p.waits, p.signals, p.groups, p.memory_barriers, p.image_barriers,
+      p.buffer_barriers, p.entry, p.acquires, p.releases, p.alias_clocks, p.passes, p.accesses, p.renderings, p.attachments, p.shaders, p.pipelines,
+      p.pipeline_shaders, p.bindings, p.samplers, p.params, p.pass_params, p.transfers, p.mip_limits);
 }
 
 uint64_t edited(uint64_t value, uint8_t how, uint8_t operand) {
   switch (how % 8) {
-    case 0: return operand;
-    case 1: return value + operand;
-    case 2: return value - operand;
-    case 3: return uint64_t{1} << operand % 64;
-    case 4: return ~uint64_t{0} - operand;
-    case 5: return value ^ uint64_t{1} << operand % 64;
-    case 6: return value << operand % 64;
-    default: return (uint64_t{1} << 63) - operand;
+    case 0:
+      return operand;
+    case 1:
+      return value + operand;
+    case 2:
+      return value - operand;
+    case 3:
+      return uint64_t{1} << operand % 64;
+    case 4:
+      return ~uint64_t{0} - operand;
+    case 5:
+      return value ^ uint64_t { 1 } << operand % 64;
+    case 6:
+      return value << operand % 64;
+    default:
+      return (uint64_t{1} << 63) - operand;
   }
 }
 
@@ -92,12 +101,18 @@ void edit_plan(TestPlan& plan, const uint8_t* data, size_t size) {
 
 TestPlan base_plan(uint8_t base) {
   switch (base % 6) {
-    case 0: return rg::test::clear_and_copy().plan;
-    case 1: return rg::test::counter().plan;
-    case 2: return rg::test::tint().plan;
-    case 3: return rg::test::relay().plan;
-    case 4: return rg::test::mips().plan;
-    default: return rg::test::aliased().plan;
+    case 0:
+      return rg::test::clear_and_copy().plan;
+    case 1:
+      return rg::test::counter().plan;
+    case 2:
+      return rg::test::tint().plan;
+    case 3:
+      return rg::test::relay().plan;
+    case 4:
+      return rg::test::mips().plan;
+    default:
+      return rg::test::aliased().plan;
   }
 }
 

@@ -59,7 +59,8 @@ VkResult VKAPI_CALL GetPhysicalDeviceSurfaceSupportKHR(VkPhysicalDevice physical
 // The link to the next layer; the caller advances it.
 template <class Link, class Info>
 Link* find_link(const Info* info, VkStructureType type, VkLayerFunction function) {
-  for (auto* at = const_cast<Link*>(static_cast<const Link*>(info->pNext)); at != nullptr; at = const_cast<Link*>(static_cast<const Link*>(at->pNext)))
+  for (auto* at = const_cast<Link*>(static_cast<const Link*>(info->pNext)); at != nullptr;
+       at = const_cast<Link*>(static_cast<const Link*>(at->pNext)))
     if (at->sType == type && at->function == function) return at;
   return nullptr;
 }
@@ -184,7 +185,8 @@ struct Row {
   const char* name;
   PFN_vkVoidFunction function;
 };
-#define RGC_ROW(function) {"vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function)}
+#define RGC_ROW(function) \
+  { "vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function) }
 const Row kInstanceRows[] = {
     RGC_ROW(GetInstanceProcAddr),
     RGC_ROW(CreateInstance),

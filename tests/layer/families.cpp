@@ -1,7 +1,7 @@
 // Three families above, one below: indices in pools, resources and barriers are translated.
 //
-// A transfer of ownership is a release and an acquire that name the same layouts and happen once. Below there is nothing to transfer: the release becomes
-// an ordinary barrier that changes no layout, the acquire one that does.
+// A transfer of ownership is a release and an acquire that name the same layouts and happen once. Below there is nothing to transfer: the release
+// becomes an ordinary barrier that changes no layout, the acquire one that does.
 #include <cstring>
 #include <mutex>
 
@@ -98,9 +98,9 @@ void VKAPI_CALL CmdPipelineBarrier(VkCommandBuffer commands, VkPipelineStageFlag
   device.CmdPipelineBarrier(commands, src, dst, flags, memory_count, memory, buffer_count, translated_buffers.data(),
                             static_cast<uint32_t>(translated_images.size()), translated_images.data());
 }
-void VKAPI_CALL CmdWaitEvents(VkCommandBuffer commands, uint32_t event_count, const VkEvent* events, VkPipelineStageFlags src, VkPipelineStageFlags dst,
-                              uint32_t memory_count, const VkMemoryBarrier* memory, uint32_t buffer_count, const VkBufferMemoryBarrier* buffers,
-                              uint32_t image_count, const VkImageMemoryBarrier* images) {
+void VKAPI_CALL CmdWaitEvents(VkCommandBuffer commands, uint32_t event_count, const VkEvent* events, VkPipelineStageFlags src,
+                              VkPipelineStageFlags dst, uint32_t memory_count, const VkMemoryBarrier* memory, uint32_t buffer_count,
+                              const VkBufferMemoryBarrier* buffers, uint32_t image_count, const VkImageMemoryBarrier* images) {
   DeviceLayer& device = layer_of(commands);
   const auto translated_buffers = translate_buffers(buffers, buffer_count);
   const auto translated_images = translate_images(images, image_count, family_of(device, commands));
@@ -110,7 +110,8 @@ void VKAPI_CALL CmdWaitEvents(VkCommandBuffer commands, uint32_t event_count, co
 
 // ---- pools and command buffers --------------------------------------------------------------------------------------
 
-VkResult VKAPI_CALL CreateCommandPool(VkDevice handle, const VkCommandPoolCreateInfo* info, const VkAllocationCallbacks* allocator, VkCommandPool* pool) {
+VkResult VKAPI_CALL CreateCommandPool(VkDevice handle, const VkCommandPoolCreateInfo* info, const VkAllocationCallbacks* allocator,
+                                      VkCommandPool* pool) {
   DeviceLayer& device = layer_of(handle);
   VkCommandPoolCreateInfo translated = *info;
   translated.queueFamilyIndex = device.real_family;
@@ -174,12 +175,15 @@ PFN_vkVoidFunction find_family_function(const char* name) {
     const char* name;
     PFN_vkVoidFunction function;
   };
-#define RGC_ROW(function) {"vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function)}
-#define RGC_KHR_ROW(function) {"vk" #function "KHR", reinterpret_cast<PFN_vkVoidFunction>(function)}
+#define RGC_ROW(function) \
+  { "vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function) }
+#define RGC_KHR_ROW(function) \
+  { "vk" #function "KHR", reinterpret_cast<PFN_vkVoidFunction>(function) }
   static const Row rows[] = {
-      RGC_ROW(CmdPipelineBarrier2), RGC_KHR_ROW(CmdPipelineBarrier2), RGC_ROW(CmdSetEvent2),  RGC_KHR_ROW(CmdSetEvent2),       RGC_ROW(CmdWaitEvents2),
-      RGC_KHR_ROW(CmdWaitEvents2),  RGC_ROW(CmdPipelineBarrier),      RGC_ROW(CmdWaitEvents), RGC_ROW(CreateCommandPool),      RGC_ROW(DestroyCommandPool),
-      RGC_ROW(FreeCommandBuffers),  RGC_ROW(CreateBuffer),            RGC_ROW(CreateImage),   RGC_ROW(AllocateCommandBuffers), RGC_ROW(CreateSwapchainKHR),
+      RGC_ROW(CmdPipelineBarrier2), RGC_KHR_ROW(CmdPipelineBarrier2), RGC_ROW(CmdSetEvent2),       RGC_KHR_ROW(CmdSetEvent2),
+      RGC_ROW(CmdWaitEvents2),      RGC_KHR_ROW(CmdWaitEvents2),      RGC_ROW(CmdPipelineBarrier), RGC_ROW(CmdWaitEvents),
+      RGC_ROW(CreateCommandPool),   RGC_ROW(DestroyCommandPool),      RGC_ROW(FreeCommandBuffers), RGC_ROW(CreateBuffer),
+      RGC_ROW(CreateImage),         RGC_ROW(AllocateCommandBuffers),  RGC_ROW(CreateSwapchainKHR),
   };
 #undef RGC_ROW
 #undef RGC_KHR_ROW

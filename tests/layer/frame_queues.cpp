@@ -72,8 +72,8 @@ TEST(FrameQueues, PicturesAreThoseOfOneQueueUnderEverySeed) {
   }
 }
 
-// Between queues the synchronization validation of Debian 12 reports hazards (`SYNC-HAZARD-`) that the checker, the machine and the pictures under every
-// seed contradict. Which of the witnesses errs is not established, so they do not count here; everything else the layer says does. On one queue
+// Between queues the synchronization validation of Debian 12 reports hazards (`SYNC-HAZARD-`) that the checker, the machine and the pictures under
+// every seed contradict. Which of the witnesses errs is not established, so they do not count here; everything else the layer says does. On one queue
 // they all count: tests/unit/frame/validation_test.cpp.
 TEST(FrameQueues, ValidationIsSilentButForHazardsBetweenQueues) {
   std::string messages;

@@ -33,12 +33,14 @@ struct LayerQueue {
   uint32_t family = 0;
 };
 
+// clang-format off
 #define RGC_LAYER_DEVICE_FUNCTIONS(X)                                                                                                             \
   X(DestroyDevice) X(GetDeviceQueue) X(QueueSubmit2) X(QueueWaitIdle) X(DeviceWaitIdle) X(QueuePresentKHR) X(QueueBindSparse) X(CreateSemaphore)  \
   X(DestroySemaphore) X(SignalSemaphore) X(WaitSemaphores) X(GetSemaphoreCounterValue) X(WaitForFences) X(GetFenceStatus) X(CreateCommandPool)    \
   X(AllocateCommandBuffers) X(FreeCommandBuffers) X(DestroyCommandPool) X(CreateBuffer) X(CreateImage) X(CreateSwapchainKHR) X(CmdPipelineBarrier) \
   X(CmdPipelineBarrier2) X(CmdSetEvent2) X(CmdWaitEvents) X(CmdWaitEvents2) X(SetDebugUtilsObjectNameEXT) X(QueueBeginDebugUtilsLabelEXT)          \
   X(QueueEndDebugUtilsLabelEXT) X(QueueInsertDebugUtilsLabelEXT)
+// clang-format on
 
 struct DeviceLayer {
   VkDevice handle = VK_NULL_HANDLE;

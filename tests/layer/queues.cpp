@@ -114,7 +114,8 @@ VkResult VKAPI_CALL GetSemaphoreCounterValue(VkDevice handle, VkSemaphore semaph
 
 // ---- semaphores -----------------------------------------------------------------------------------------------------
 
-VkResult VKAPI_CALL CreateSemaphore(VkDevice handle, const VkSemaphoreCreateInfo* info, const VkAllocationCallbacks* allocator, VkSemaphore* semaphore) {
+VkResult VKAPI_CALL CreateSemaphore(VkDevice handle, const VkSemaphoreCreateInfo* info, const VkAllocationCallbacks* allocator,
+                                    VkSemaphore* semaphore) {
   DeviceLayer& device = layer_of(handle);
   const VkResult result = device.CreateSemaphore(handle, info, allocator, semaphore);
   if (result != VK_SUCCESS) return result;
@@ -153,16 +154,32 @@ PFN_vkVoidFunction find_queue_function(const char* name) {
     const char* name;
     PFN_vkVoidFunction function;
   };
-#define RGC_ROW(function) {"vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function)}
-#define RGC_KHR_ROW(function) {"vk" #function "KHR", reinterpret_cast<PFN_vkVoidFunction>(function)}
+#define RGC_ROW(function) \
+  { "vk" #function, reinterpret_cast<PFN_vkVoidFunction>(function) }
+#define RGC_KHR_ROW(function) \
+  { "vk" #function "KHR", reinterpret_cast<PFN_vkVoidFunction>(function) }
   static const Row rows[] = {
-      RGC_ROW(QueueSubmit),      RGC_ROW(QueueSubmit2),       RGC_KHR_ROW(QueueSubmit2),
-      RGC_ROW(QueueBindSparse),  RGC_ROW(QueuePresentKHR),    RGC_ROW(QueueWaitIdle),
-      RGC_ROW(DeviceWaitIdle),   RGC_ROW(WaitSemaphores),     RGC_KHR_ROW(WaitSemaphores),
-      RGC_ROW(WaitForFences),    RGC_ROW(GetFenceStatus),     RGC_ROW(GetSemaphoreCounterValue),
-      RGC_KHR_ROW(GetSemaphoreCounterValue), RGC_ROW(CreateSemaphore), RGC_ROW(DestroySemaphore),
-      RGC_ROW(SignalSemaphore),  RGC_KHR_ROW(SignalSemaphore), RGC_ROW(SetDebugUtilsObjectNameEXT),
-      RGC_ROW(QueueBeginDebugUtilsLabelEXT), RGC_ROW(QueueEndDebugUtilsLabelEXT), RGC_ROW(QueueInsertDebugUtilsLabelEXT),
+      RGC_ROW(QueueSubmit),
+      RGC_ROW(QueueSubmit2),
+      RGC_KHR_ROW(QueueSubmit2),
+      RGC_ROW(QueueBindSparse),
+      RGC_ROW(QueuePresentKHR),
+      RGC_ROW(QueueWaitIdle),
+      RGC_ROW(DeviceWaitIdle),
+      RGC_ROW(WaitSemaphores),
+      RGC_KHR_ROW(WaitSemaphores),
+      RGC_ROW(WaitForFences),
+      RGC_ROW(GetFenceStatus),
+      RGC_ROW(GetSemaphoreCounterValue),
+      RGC_KHR_ROW(GetSemaphoreCounterValue),
+      RGC_ROW(CreateSemaphore),
+      RGC_ROW(DestroySemaphore),
+      RGC_ROW(SignalSemaphore),
+      RGC_KHR_ROW(SignalSemaphore),
+      RGC_ROW(SetDebugUtilsObjectNameEXT),
+      RGC_ROW(QueueBeginDebugUtilsLabelEXT),
+      RGC_ROW(QueueEndDebugUtilsLabelEXT),
+      RGC_ROW(QueueInsertDebugUtilsLabelEXT),
   };
 #undef RGC_ROW
 #undef RGC_KHR_ROW

@@ -28,7 +28,8 @@ Outbox make_outbox(Device& device) {
   vk.GetBufferMemoryRequirements(device.handle(), buffer, &requirements);
   VkMemoryAllocateInfo allocate{};
   allocate.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, allocate.allocationSize = requirements.size;
-  allocate.memoryTypeIndex = device.memory_type(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+  allocate.memoryTypeIndex =
+      device.memory_type(requirements.memoryTypeBits, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   VkDeviceMemory memory = VK_NULL_HANDLE;
   EXPECT_EQ(vk.AllocateMemory(device.handle(), &allocate, nullptr, &memory), VK_SUCCESS);
   EXPECT_EQ(vk.BindBufferMemory(device.handle(), buffer, memory, 0), VK_SUCCESS);

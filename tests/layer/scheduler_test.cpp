@@ -7,11 +7,18 @@ namespace rgc_layer {
 namespace {
 
 VkSemaphore handle(uintptr_t number) { return reinterpret_cast<VkSemaphore>(number); }
-VkSemaphoreSubmitInfo at(uintptr_t semaphore, uint64_t value) { return {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle(semaphore), value, 0, 0}; }
+VkSemaphoreSubmitInfo at(uintptr_t semaphore, uint64_t value) {
+  return {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO, nullptr, handle(semaphore), value, 0, 0};
+}
 
 struct Trial {
   explicit Trial(std::optional<uint64_t> seed)
-      : scheduler([this](const Submission& s) { order.push_back(static_cast<uint32_t>(s.flags)); return VK_SUCCESS; }, seed) {
+      : scheduler(
+            [this](const Submission& s) {
+              order.push_back(static_cast<uint32_t>(s.flags));
+              return VK_SUCCESS;
+            },
+            seed) {
     for (const uintptr_t semaphore : {1, 2, 3}) scheduler.add_semaphore(handle(semaphore), true, 0);
     scheduler.add_semaphore(handle(4), false, 0);
   }

@@ -76,7 +76,8 @@ TEST_P(Golden, GeneratedFiles) {
   EXPECT_EQ(expected.size(), generated.size());
 }
 
-INSTANTIATE_TEST_SUITE_P(Codegen, Golden, testing::Values("minimal", "recorders", "variants", "drawing", "devices"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(Codegen, Golden, testing::Values("minimal", "recorders", "variants", "drawing", "devices"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(Generate, TheSameInputGivesTheSameBytes) {
   const fs::path folder = fs::path(RGC_SOURCE_DIR) / "tests/golden/codegen/recorders";

@@ -82,7 +82,8 @@ KeptImage kept_image() {
   t.result = p.buffer("result", p.constant(8 * 8 * 4), test::kCopyDst, Lifetime::readback);
   p.conditions = {"overwrite"};
   p.entry.push_back({{t.kept, 0}, {}, stage::clear, access::transfer_write, Layout::transfer_dst});
-  p.barriers({test::transition(t.kept, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read, Layout::transfer_src)});
+  p.barriers({test::transition(t.kept, stage::clear, access::transfer_write, Layout::transfer_dst, stage::copy, access::transfer_read,
+                               Layout::transfer_src)});
   Transfer copy, clear;
   copy.kind = TransferKind::copy_image_to_buffer, copy.src = {t.kept, 0}, copy.dst = {t.result, 0};
   p.transfer("read", {copy},
@@ -91,7 +92,8 @@ KeptImage kept_image() {
   p.barriers({test::transition(t.kept, stage::copy, 0, Layout::transfer_src, stage::clear, access::transfer_write, Layout::transfer_dst)},
              {test::to_host(t.result)});
   clear.kind = TransferKind::clear_color, clear.dst = {t.kept, 0}, clear.value = {{0x40800000, 0, 0, 0}};  // 4
-  const Index overwrite = p.transfer("overwrite", {clear}, {test::touches({t.kept, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
+  const Index overwrite =
+      p.transfer("overwrite", {clear}, {test::touches({t.kept, 0}, stage::clear, access::transfer_write, Layout::transfer_dst, true)});
   p.passes[overwrite].guard = 1;
   return t;
 }

@@ -47,7 +47,8 @@ TEST(Allow, SpeaksForWhatItStandsIn) {
   EXPECT_NE(pass.text().find("pass `second` reaches no output"), std::string::npos);
   EXPECT_EQ(judge_text(frame_with("", "allow RG0516")).codes(true), "RG0516 RG0516 ");
   EXPECT_EQ(judge_text(frame_with("", "", "allow RG0516")).text(), "");
-  EXPECT_EQ(judge_text(frame_with("", "when on { pass third : compute { write b as storage }  allow RG0516 }", "feature on: bool")).codes(true), "RG0516 ");
+  EXPECT_EQ(judge_text(frame_with("", "when on { pass third : compute { write b as storage }  allow RG0516 }", "feature on: bool")).codes(true),
+            "RG0516 ");
 }
 
 // What only a known pass wanted is known with it; what others want as well is not.
@@ -101,7 +102,8 @@ TEST(Allow, ErrorsStayErrors) {
   CompileOptions options;
   options.warnings.allowed = {dsl::DiagnosticKind::ReadBeforeWrite};
   const std::string text =
-      "allow RG0301\ngraph frame(surface out: rgba8 4x4 after copy_src)\n{\n  image a : r8 4x4\n  pass show : raster { read a as sampled in fragment  color out clear 0 }\n}\n";
+      "allow RG0301\ngraph frame(surface out: rgba8 4x4 after copy_src)\n{\n  image a : r8 4x4\n  pass show : raster { read a as sampled in fragment "
+      " color out clear 0 }\n}\n";
   const Judged judged = judge_text(text, options);
   EXPECT_TRUE(judged.diagnostics.has_errors());
   EXPECT_EQ(judged.codes(false), "RG0260 RG0301 ");

@@ -48,8 +48,9 @@ TEST(Facts, CountsWhatAPlanHolds) {
   graph.plans.push_back(frame);
   const nlohmann::ordered_json json = to_json(find_facts(program, graph, graph.plans[0]));
   EXPECT_EQ(json["passes"], (nlohmann::ordered_json{{"live", 3}, {"culled", 1}, {"raster", 0}, {"renderings", 0}}));
-  EXPECT_EQ(json["memory"], (nlohmann::ordered_json{
-                                {"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}, {"lazy_bytes", 4}, {"heap_beside_lazy_bytes", 7}}));
+  EXPECT_EQ(json["memory"],
+            (nlohmann::ordered_json{
+                {"heap_bytes", 10}, {"unaliased_bytes", 20}, {"lower_bound_bytes", 9}, {"lazy_bytes", 4}, {"heap_beside_lazy_bytes", 7}}));
   EXPECT_EQ(json["barriers"]["calls"], 2);
   EXPECT_EQ(json["barriers"]["barriers"], 3);
   EXPECT_EQ(json["barriers"]["all_commands"], 1);

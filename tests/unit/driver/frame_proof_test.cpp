@@ -71,7 +71,8 @@ bool misbehaves(const Plan& mutant) {
   return false;
 }
 
-// How many passes may change places is the order's business. Of all other damage few elements change nothing, and in those the machine sees nothing either (--long).
+// How many passes may change places is the order's business. Of all other damage few elements change nothing, and in those the machine sees nothing
+// either (--long).
 TEST(FrameProof, EveryDamagedElementIsNoticed) {
   verify::MutateOptions options;
   if (std::getenv("RGC_LONG")) options.misbehaves = misbehaves;  // a minute

@@ -49,7 +49,8 @@ std::set<std::string> run_with(const dsl::Program& merged, const Configuration& 
     bool runs = all.contains(frame.pass(i).name);
     for (const dsl::ConditionId id : frame.pass(i).conditions) {
       const dsl::Condition& condition = merged.conditions[id];
-      if (condition.feature.valid() && std::find(condition.values.begin(), condition.values.end(), values[condition.feature.value]) == condition.values.end())
+      if (condition.feature.valid() &&
+          std::find(condition.values.begin(), condition.values.end(), values[condition.feature.value]) == condition.values.end())
         runs = false;
     }
     if (runs) names.insert(frame.pass(i).name);
@@ -84,7 +85,8 @@ const std::string kShow = "  pass show : raster { fullscreen \"b.frag\"  read li
 TEST(MergeFeatures, WhatOnlyRemovesPassesIsOnePlan) {
   const std::string text = "feature bloom : bool\n" + kBloom +
                            "  when bloom {\n    pass down : raster { fullscreen \"c.frag\"  read lit as sampled  color glow clear 0 }\n"
-                           "    pass up : raster { fullscreen \"d.frag\"  read glow as sampled  color lit }\n  }\n" + kShow;
+                           "    pass up : raster { fullscreen \"d.frag\"  read glow as sampled  color lit }\n  }\n" +
+                           kShow;
   EXPECT_EQ(expect_same_frames(text), 1u);
   const dsl::Program merged = merge_features(load(text), dsl::GraphId{0}, {});
   ASSERT_EQ(merged.conditions.size(), 1u);
@@ -95,7 +97,8 @@ TEST(MergeFeatures, WhatOnlyRemovesPassesIsOnePlan) {
 TEST(MergeFeatures, WhatOnlyFeedsSkippedPassesIsSkippedToo) {
   const std::string text = "feature bloom : bool\n" + kBloom +
                            "  pass down : raster { fullscreen \"c.frag\"  read lit as sampled  color glow clear 0 }\n"
-                           "  when bloom { pass up : raster { fullscreen \"d.frag\"  read glow as sampled  color lit } }\n" + kShow;
+                           "  when bloom { pass up : raster { fullscreen \"d.frag\"  read glow as sampled  color lit } }\n" +
+                           kShow;
   EXPECT_EQ(expect_same_frames(text), 1u);
   const dsl::Program merged = merge_features(load(text), dsl::GraphId{0}, {});
   size_t conditional = 0;
@@ -106,20 +109,23 @@ TEST(MergeFeatures, WhatOnlyFeedsSkippedPassesIsSkippedToo) {
 TEST(MergeFeatures, WhatSwapsPassesKeepsItsPlans) {
   const std::string text = "feature fast : bool\n" + kBloom +
                            "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
-                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" + kShow;
+                           "  else { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" +
+                           kShow;
   EXPECT_EQ(expect_same_frames(text), 2u);
 }
 
 TEST(MergeFeatures, WhatMakesOtherPassesSuperfluousKeepsItsPlans) {
   // With `wipe`, what `light` draws is overwritten, and `light` is culled.
-  const std::string text = "feature wipe : bool\n" + kBloom + "  when wipe { pass x : raster { fullscreen \"c.frag\"  color lit clear 0 } }\n" + kShow;
+  const std::string text =
+      "feature wipe : bool\n" + kBloom + "  when wipe { pass x : raster { fullscreen \"c.frag\"  color lit clear 0 } }\n" + kShow;
   EXPECT_EQ(expect_same_frames(text), 2u);
 }
 
 TEST(MergeFeatures, ValuesThatRunTheSamePassesShareACondition) {
   const std::string text = "feature glow_of : { none, low, high }\n" + kBloom +
                            "  when glow_of != none { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
-                           "  when glow_of == high { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" + kShow;
+                           "  when glow_of == high { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n" +
+                           kShow;
   EXPECT_EQ(expect_same_frames(text), 1u);
   const dsl::Program merged = merge_features(load(text), dsl::GraphId{0}, {});
   ASSERT_EQ(merged.conditions.size(), 2u);
@@ -131,7 +137,8 @@ TEST(MergeFeatures, RulesAndOtherPlansAreKept) {
   const std::string text = "feature fast : bool\nfeature haze : bool requires fast\n" + kBloom +
                            "  when fast { pass x : raster { fullscreen \"c.frag\"  color lit blend add(one, one) } }\n"
                            "  else { pass y : raster { fullscreen \"d.frag\"  color lit blend add(one, one) } }\n"
-                           "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit blend add(one, one) } }\n" + kShow;
+                           "  when haze { pass z : raster { fullscreen \"e.frag\"  color lit blend add(one, one) } }\n" +
+                           kShow;
   EXPECT_EQ(expect_same_frames(text), 2u);
 }
 
@@ -172,8 +179,8 @@ TEST(MergeFeatures, ThePlanIsProvedForEveryOutcome) {
   ASSERT_EQ(result.graphs[0].plans.size(), 2u);
   for (const FramePlan& frame : result.graphs[0].plans) {
     EXPECT_EQ(frame.plan.feature_conditions.size(), 4u);
-    for (const verify::Finding& finding :
-         verify::verify(result.program, dsl::GraphId{0}, frame.configuration, frame.plan.view(), frame.plan.program_pass, frame.plan.program_resource))
+    for (const verify::Finding& finding : verify::verify(result.program, dsl::GraphId{0}, frame.configuration, frame.plan.view(),
+                                                         frame.plan.program_pass, frame.plan.program_resource))
       ADD_FAILURE() << verify::name(finding.hazard) << ": " << finding.text;
   }
 }

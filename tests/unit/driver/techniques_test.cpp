@@ -25,8 +25,7 @@ graph frame(params left: Camera, params right: Camera)
 // A shader calls parameter blocks as the technique does, so that all instances share it; each still reads the block that it was given.
 TEST(Techniques, InstancesWithOtherBlocksShareTheShader) {
   const std::map<std::string, std::string> files = {
-      {"frame.rg", kTwoCameras},
-      {"draw.comp", "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(camera.exposure)); }\n"}};
+      {"frame.rg", kTwoCameras}, {"draw.comp", "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(camera.exposure)); }\n"}};
   const auto read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
     const auto at = files.find(path);
     if (at != files.end()) return at->second;

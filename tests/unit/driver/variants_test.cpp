@@ -100,8 +100,9 @@ TEST(VariantsOfAFrame, WhatNoFrameRunsIsNotBuilt) {
   std::string& root = files["frame.rg"];
   root.insert(root.find("\n      update lit as storage"), "\n      features fog, sun");
   root.replace(root.find("feature sun: bool"), 17, "feature sun: bool requires fog");
-  files["haze.comp"] = "void main() {\n  ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n  vec4 c = imageLoad(lit, p);\n  if (fog) c *= 0.5;\n"
-                       "  if (sun) c.r = 0.1;\n  imageStore(lit, p, c);\n}\n";
+  files["haze.comp"] =
+      "void main() {\n  ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n  vec4 c = imageLoad(lit, p);\n  if (fog) c *= 0.5;\n"
+      "  if (sun) c.r = 0.1;\n  imageStore(lit, p, c);\n}\n";
   const Compiled compiled = compile_files(files);
   ASSERT_FALSE(compiled.diagnostics.has_errors()) << compiled.codes();
   const CompiledGraph& graph = compiled.result.graphs[0];
@@ -122,7 +123,8 @@ TEST(VariantsOfAFrame, WhatOnlySomeDevicesHaveIsAskedFor) {
   Files files = frame_with("features sun", "  if (sun) c.r = 1.0;\n  c.g = float(subgroupAdd(1u));\n");
   files["light.comp"] = "#extension GL_KHR_shader_subgroup_arithmetic : require\n" + files["light.comp"];
   const std::string refused = compile_files(files).codes();
-  EXPECT_EQ(refused.substr(0, refused.find(';')), "RG0510 shader `light.comp` needs `subgroup_arithmetic`, which profile `vulkan 1.3` does not promise");
+  EXPECT_EQ(refused.substr(0, refused.find(';')),
+            "RG0510 shader `light.comp` needs `subgroup_arithmetic`, which profile `vulkan 1.3` does not promise");
   files = frame_with("features sun, sums", "  if (sun) c.r = 1.0;\n#if FEATURE_sums\n  c.g = float(subgroupAdd(1u));\n#endif\n");
   files["frame.rg"].insert(files["frame.rg"].find("feature fog"), "feature sums: device subgroup_arithmetic\n");
   files["light.comp"] = "#if FEATURE_sums\n#extension GL_KHR_shader_subgroup_arithmetic : require\n#endif\n" + files["light.comp"];
@@ -313,8 +315,9 @@ TEST(SpectrumOfAFrame, IsChosenOnceAndAgainWhenItsShaderChanges) {
   EXPECT_EQ(again.result.cache.misses, 0u);
   EXPECT_EQ(all_text(again.result), plain);
   // Now `a` is what costs, and half the tiles do without.
-  files["shade.comp"] = "void main() { uvec2 p = spectrum_pixel(); float x = float(p.x); if (a) { for (int i = 0; i < 9; ++i) x += sin(x) * cos(x); }\n"
-                        "shown[p.y * 64u + p.x] += uint(x) + (b ? 2u : 0u); }\n";
+  files["shade.comp"] =
+      "void main() { uvec2 p = spectrum_pixel(); float x = float(p.x); if (a) { for (int i = 0; i < 9; ++i) x += sin(x) * cos(x); }\n"
+      "shown[p.y * 64u + p.x] += uint(x) + (b ? 2u : 0u); }\n";
   const Compiled changed = compile_files(files, options);
   EXPECT_GT(changed.result.cache.stored, 0u);
   EXPECT_EQ(all_text(changed.result), all_text(compile_files(files).result));

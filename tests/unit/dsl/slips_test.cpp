@@ -55,7 +55,8 @@ TEST(Depth, OfStructsInBothOrders) {
 TEST(Depth, OfBundles) {
   std::string deep, wide;
   for (int i = 0; i < 5000; ++i) deep += "bundle b" + std::to_string(i) + " { with b" + std::to_string(i + 1) + " }\n";
-  for (int i = 0; i < 40; ++i) wide += "bundle b" + std::to_string(i) + " { with b" + std::to_string(i + 1) + " with b" + std::to_string(i + 1) + " }\n";
+  for (int i = 0; i < 40; ++i)
+    wide += "bundle b" + std::to_string(i) + " { with b" + std::to_string(i + 1) + " with b" + std::to_string(i + 1) + " }\n";
   const std::string pass = "pass p : raster { with b0  color s clear 0 }";
   EXPECT_EQ(codes(load_text(in_graph(deep + "bundle b5000 { keep }\n" + pass))), Codes{"RG0107"});
   EXPECT_EQ(codes(load_text(in_graph(wide + "bundle b40 { keep }\n" + pass))), Codes{"RG0257"});
@@ -107,14 +108,15 @@ TEST(Suggestions, RolesAreThoseThatAPassCanHave) {
 }
 
 TEST(Suggestions, TypesAsOtherLanguagesCallThem) {
-  const std::pair<const char*, const char*> pairs[] = {{"float", "f32"}, {"int", "i32"},     {"uint", "u32"},
+  const std::pair<const char*, const char*> pairs[] = {{"float", "f32"},   {"int", "i32"},     {"uint", "u32"},
                                                        {"float4", "vec4"}, {"uint2", "uvec2"}, {"mat4x4", "mat4"}};
   for (const auto& [foreign, own] : pairs) EXPECT_EQ(first_fix(load_text(std::string("struct S { a: ") + foreign + " }\n")), own) << foreign;
 }
 
 TEST(Suggestions, TheModuleBeforeANameStays) {
   const std::string text = "import \"m.rg\"\n" + in_graph("use m.blur2(s)");
-  const golden::Loaded loaded = golden::load("test.rg", {{"test.rg", text}, {"m.rg", "technique blur1(inout image a) { pass p : raster { color a } }"}});
+  const golden::Loaded loaded =
+      golden::load("test.rg", {{"test.rg", text}, {"m.rg", "technique blur1(inout image a) { pass p : raster { color a } }"}});
   for (const Diagnostic& each : loaded.diagnostics.rows())
     for (const FixIt& fix : each.fixes) {
       EXPECT_EQ(fix.text, "blur1");
@@ -124,7 +126,8 @@ TEST(Suggestions, TheModuleBeforeANameStays) {
 }
 
 TEST(Suggestions, AMissingBraceStandsUnderItsBlock) {
-  const golden::Loaded loaded = load_text("graph g(surface s: rgba8 4x4) {\n  pass a : raster {\n    color s clear 0\n  pass b : raster { color s }\n}\n");
+  const golden::Loaded loaded =
+      load_text("graph g(surface s: rgba8 4x4) {\n  pass a : raster {\n    color s clear 0\n  pass b : raster { color s }\n}\n");
   EXPECT_EQ(first_fix(loaded), "\n  }");
   EXPECT_NE(print(loaded.diagnostics, loaded.result.files, false).find("= fix: insert a line `}`\n"), std::string::npos);
 }
@@ -173,7 +176,8 @@ TEST(Messages, ALaterPassIsNamedIfItWritesWhatIsRead) {
   const golden::Loaded other = load_text(in_graph(before + "pass q : compute { write a.mip(2) as storage }"));
   for (const Diagnostic& each : other.diagnostics.rows())
     for (const Diagnostic& note : each.notes) EXPECT_NE(row(note.kind).code, "RG0302");
-  const golden::Loaded same = load_text(in_graph(before + "pass q : compute { write a.mip(2) as storage }\npass r : compute { write a.mip(1) as storage }"));
+  const golden::Loaded same =
+      load_text(in_graph(before + "pass q : compute { write a.mip(2) as storage }\npass r : compute { write a.mip(1) as storage }"));
   EXPECT_EQ(first_note(same), "pass `r` writes it after the read");
 }
 
@@ -181,7 +185,8 @@ TEST(Messages, WordsOfGlslCannotNameWhatShadersSee) {
   EXPECT_EQ(codes(load_text("const layout = 3\n")), Codes{"RG0213"});
   EXPECT_EQ(codes(load_text("struct S { in: f32 }\n")), Codes{"RG0213"});
   EXPECT_EQ(codes(load_text("struct buffer { a: f32 }\n")), Codes{"RG0213"});
-  EXPECT_EQ(codes(load_text(in_graph("pass p : compute { shader \"p.comp\" group 8 8 1  write out = s as storage  dispatch over s }"))), Codes{"RG0213"});
+  EXPECT_EQ(codes(load_text(in_graph("pass p : compute { shader \"p.comp\" group 8 8 1  write out = s as storage  dispatch over s }"))),
+            Codes{"RG0213"});
 }
 
 TEST(Messages, ImportsOfNoFile) {

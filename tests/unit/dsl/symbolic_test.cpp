@@ -36,7 +36,8 @@ TEST(Symbolic, SumsAndProductsAreEqualHoweverTheyAreWritten) {
   const ExprId sum = s.add(ExprOp::add, s.x, s.y);
   const ExprId square = s.add(ExprOp::mul, sum, sum);
   const ExprId two = s.number(2), product = s.add(ExprOp::mul, s.y, s.x);
-  const ExprId parts = s.add(ExprOp::add, s.add(ExprOp::mul, s.x, s.x), s.add(ExprOp::add, s.add(ExprOp::mul, two, product), s.add(ExprOp::mul, s.y, s.y)));
+  const ExprId parts =
+      s.add(ExprOp::add, s.add(ExprOp::mul, s.x, s.x), s.add(ExprOp::add, s.add(ExprOp::mul, two, product), s.add(ExprOp::mul, s.y, s.y)));
   EXPECT_TRUE(s.equal(square, parts));
   EXPECT_FALSE(s.equal(square, product));
   EXPECT_TRUE(s.equal(s.add(ExprOp::sub, sum, s.y), s.x));
@@ -59,7 +60,8 @@ TEST(Symbolic, BoundsOfExtentsDecide) {
 TEST(Symbolic, QuotientsAreBoundedByWhatIsDivided) {
   Symbols s;
   const ExprId three = s.number(3);
-  const ExprId down = s.add(ExprOp::mul, s.add(ExprOp::floor_div, s.x, three), three), up = s.add(ExprOp::mul, s.add(ExprOp::ceil_div, s.x, three), three);
+  const ExprId down = s.add(ExprOp::mul, s.add(ExprOp::floor_div, s.x, three), three),
+               up = s.add(ExprOp::mul, s.add(ExprOp::ceil_div, s.x, three), three);
   EXPECT_TRUE(s.not_less(s.x, down));
   EXPECT_TRUE(s.not_less(up, s.x));
   EXPECT_FALSE(s.not_less(down, s.x));

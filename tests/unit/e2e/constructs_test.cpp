@@ -12,7 +12,8 @@ namespace rg::test {
 namespace {
 
 TEST(Constructs, InputsAreTexelsOfTheirPixel) {
-  const auto found = run({{"frame.rg", R"(
+  const auto found =
+      run({{"frame.rg", R"(
 graph frame() {
   image  values : r32ui 8x8
   image  eyes   : r32ui 8x8
@@ -21,11 +22,11 @@ graph frame() {
   pass stereo : raster  { fullscreen "stereo.frag"  read values as input  color eyes }
   pass show   : compute { shader "show.comp" group 8 8 1  read eyes as sampled  write shown as storage  dispatch over eyes }
 })"},
-                                           {"make.comp", "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); imageStore(values, at, uvec4(at.x + 8 * at.y)); }"},
-                                           {"stereo.frag", "void main() { eyes = uvec4(values.x * 10u + 1u); }"},
-                                           {"show.comp",
-                                            "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
-                                            "  shown[8 * at.y + at.x] = texelFetch(eyes, at, 0).x; }"}});
+           {"make.comp", "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); imageStore(values, at, uvec4(at.x + 8 * at.y)); }"},
+           {"stereo.frag", "void main() { eyes = uvec4(values.x * 10u + 1u); }"},
+           {"show.comp",
+            "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
+            "  shown[8 * at.y + at.x] = texelFetch(eyes, at, 0).x; }"}});
   if (!found) GTEST_SKIP() << "no device";
   const Words& words = *found;
   ASSERT_EQ(words.size(), 64u);
@@ -40,12 +41,12 @@ graph frame() {
   buffer particles : Particle[2] readback
   pass make : compute { shader "make.comp" group 2 1 1  write particles as storage  dispatch over 2 }
 })"},
-                                           {"make.comp",
-                                            "void main() { uint i = gl_GlobalInvocationID.x; float b = float(100u * i);\n"
-                                            "  particles[i].at = vec3(b, b + 1.0, b + 2.0);\n"
-                                            "  for (int c = 0; c < 3; ++c) particles[i].turn[c] = b + 3.0 + float(3 * c) + vec3(0.0, 1.0, 2.0);\n"
-                                            "  for (int k = 0; k < 3; ++k) particles[i].ages[k] = b + 12.0 + float(k);\n"
-                                            "  for (int k = 0; k < 2; ++k) particles[i].inner[k].a = b + 15.0 + float(3 * k) + vec3(0.0, 1.0, 2.0); }"}});
+                          {"make.comp",
+                           "void main() { uint i = gl_GlobalInvocationID.x; float b = float(100u * i);\n"
+                           "  particles[i].at = vec3(b, b + 1.0, b + 2.0);\n"
+                           "  for (int c = 0; c < 3; ++c) particles[i].turn[c] = b + 3.0 + float(3 * c) + vec3(0.0, 1.0, 2.0);\n"
+                           "  for (int k = 0; k < 3; ++k) particles[i].ages[k] = b + 12.0 + float(k);\n"
+                           "  for (int k = 0; k < 2; ++k) particles[i].inner[k].a = b + 15.0 + float(3 * k) + vec3(0.0, 1.0, 2.0); }"}});
   if (!found) GTEST_SKIP() << "no device";
   const Words& words = *found;
   ASSERT_EQ(words.size(), 42u);
@@ -53,7 +54,8 @@ graph frame() {
 }
 
 TEST(Constructs, DepthIsResolvedAtTheEndOfARendering) {
-  const auto found = run({{"frame.rg", R"(
+  const auto found =
+      run({{"frame.rg", R"(
 state far { depth test always }
 graph frame() {
   image  many  : d32f 8x8 samples 4
@@ -62,9 +64,8 @@ graph frame() {
   pass draw : raster  { state far  fullscreen "draw.frag"  depth many clear 0  resolve many -> depth }
   pass show : compute { shader "show.comp" group 8 8 1  read depth as sampled  write shown as storage  dispatch over depth }
 })"},
-                                           {"draw.frag", "void main() { gl_FragDepth = floor(gl_FragCoord.x) / 16.0; }"},
-                                           {"show.comp",
-                                            "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(depth, at, 0).x; }"}});
+           {"draw.frag", "void main() { gl_FragDepth = floor(gl_FragCoord.x) / 16.0; }"},
+           {"show.comp", "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(depth, at, 0).x; }"}});
   if (!found) GTEST_SKIP() << "no device";
   const Words& words = *found;
   ASSERT_EQ(words.size(), 64u);
@@ -91,7 +92,7 @@ graph frame() {
   for i in 0..2 { use add[i] = twice(terms[i], inout shown) }
   assert live(add[1].once[0][1])
 })"},
-                                           {"twice.comp", "void main() { uint i = gl_GlobalInvocationID.x; target[i] += source[i] * (i + 1u); }"}});
+                          {"twice.comp", "void main() { uint i = gl_GlobalInvocationID.x; target[i] += source[i] * (i + 1u); }"}});
   if (!found) GTEST_SKIP() << "no device";
   const Words& words = *found;
   ASSERT_EQ(words.size(), 4u);
@@ -113,9 +114,9 @@ graph frame() {
     dispatch groups 1
   }
 })"},
-                                           {"step.comp", "void main() { count[0] = count_prev[0] + 1u; }"},
-                                           {"show.comp", "void main() { shown[0] = count[0]; shown[1] = count_prev[0]; shown[2] = count_prev3[0]; shown[3] = 1u; }"}},
-                                          5);
+                          {"step.comp", "void main() { count[0] = count_prev[0] + 1u; }"},
+                          {"show.comp", "void main() { shown[0] = count[0]; shown[1] = count_prev[0]; shown[2] = count_prev3[0]; shown[3] = 1u; }"}},
+                         5);
   if (!found) GTEST_SKIP() << "no device";
   const Words& words = *found;
   ASSERT_EQ(words.size(), 4u);

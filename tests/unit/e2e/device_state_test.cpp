@@ -41,7 +41,8 @@ graph frame() {
   image depth : d32f 8x8
   image seen  : r32ui 8x8
   pass prepare : raster { fullscreen "slope.frag"  state anyhow  depth depth clear 0 }
-  pass light   : raster { fullscreen "one.frag"  features bounds  state lit  depth depth readonly  color seen clear 9 })" + kShow},
+  pass light   : raster { fullscreen "one.frag"  features bounds  state lit  depth depth readonly  color seen clear 9 })" +
+                                        kShow},
                        {"slope.frag", "void main() { gl_FragDepth = gl_FragCoord.x / 8.0; }"},
                        {"one.frag", "void main() { seen = uvec4(1); }"},
                        {"show.comp", kShowShader}};
@@ -65,7 +66,8 @@ feature whole : device conservative_rasterization
 state covering { cull none  conservative }
 graph frame() {
   image seen : r32ui 8x8
-  pass draw : raster { shader "sliver.vert" "one.frag"  features whole  state covering  color seen clear 0  draw 3 })" + kShow},
+  pass draw : raster { shader "sliver.vert" "one.frag"  features whole  state covering  color seen clear 0  draw 3 })" +
+                                              kShow},
                              {"sliver.vert", R"(void main() {
   const vec2 kCorners[3] = vec2[](vec2(0.1, 0.1), vec2(7.9, 0.1), vec2(7.9, 0.2));
   gl_Position = vec4(kCorners[gl_VertexIndex] / 4.0 - 1.0, 0.0, 1.0);
@@ -87,7 +89,8 @@ feature corners : device barycentrics
 state flat_sided { cull none }
 graph frame() {
   image seen : r32ui 8x8
-  pass draw : raster { shader "corners.vert" "corners.frag"  features corners  state flat_sided  color seen clear 0  draw 3 })" + kShow},
+  pass draw : raster { shader "corners.vert" "corners.frag"  features corners  state flat_sided  color seen clear 0  draw 3 })" +
+                                              kShow},
                              {"corners.vert", R"(layout(location = 0) out vec3 weights;
 void main() {
   const vec2 kCorners[3] = vec2[](vec2(0.0, 0.0), vec2(16.0, 0.0), vec2(0.0, 16.0));
@@ -127,7 +130,8 @@ graph frame() {
   image one  : rgba8 8x8
   image seen : r32ui 8x8
   pass draw  : raster { shader "halves.vert" "white.frag"  features placed  state left  color many clear 0  resolve many -> one  draw 24 }
-  pass count : compute { shader "count.comp" group 8 8 1  read one as sampled  write seen as storage  dispatch over 8x8 })" + kShow},
+  pass count : compute { shader "count.comp" group 8 8 1  read one as sampled  write seen as storage  dispatch over 8x8 })" +
+                                         kShow},
                         {"halves.vert", R"(void main() {
   int stripe = gl_VertexIndex / 6, corner = gl_VertexIndex % 6;
   const vec2 kCorners[6] = vec2[](vec2(0, 0), vec2(0.4, 0), vec2(0, 8), vec2(0.4, 0), vec2(0, 8), vec2(0.4, 8));
@@ -151,9 +155,9 @@ TEST(DeviceState, SamplesLieWhereTheStatePutsThem) {
 
 // A null device is told what it has: the pipelines of a desktop GPU are made there.
 TEST(DeviceState, PipelinesAreChosenWhenTheGraphIsCreated) {
-  for (const auto& [files, capability, word] :
-       {std::tuple(&kBounds, Capability::depth_bounds, "depth bounds 0.25 0.75"), std::tuple(&kConservative, Capability::conservative_rasterization, "conservative"),
-        std::tuple(&kSamples, Capability::sample_locations, "samples at")}) {
+  for (const auto& [files, capability, word] : {std::tuple(&kBounds, Capability::depth_bounds, "depth bounds 0.25 0.75"),
+                                                std::tuple(&kConservative, Capability::conservative_rasterization, "conservative"),
+                                                std::tuple(&kSamples, Capability::sample_locations, "samples at")}) {
     const compiler::CompileResult result = compile_files(*files);
     const Plan plan = result.graphs[0].plans[0].plan.view();
     for (const bool has : {false, true}) {

@@ -11,10 +11,10 @@ namespace rg::test {
 namespace {
 
 // The 64 texels after a frame under validation; skips the test without a device.
-#define RUN(words, ...)                                    \
-  const auto found = run(__VA_ARGS__, 1, true);            \
-  if (!found) GTEST_SKIP() << "no device";                 \
-  const Words& words = *found;                             \
+#define RUN(words, ...)                         \
+  const auto found = run(__VA_ARGS__, 1, true); \
+  if (!found) GTEST_SKIP() << "no device";      \
+  const Words& words = *found;                  \
   ASSERT_EQ(words.size(), 64u)
 
 // What texels and vertices hold is made by a shader as words, and copied.
@@ -28,7 +28,8 @@ graph frame() {
   buffer points : Point[2]
   pass make : compute { shader "make.comp" group 1 1 1  write words as storage  dispatch groups 1 }
   pass load : transfer { copy words -> points }
-  pass draw : raster { shader "draw.vert" "draw.frag"  state points  read points as vertex  color seen clear 9  draw 2 { vertex Point } })" + kShow},
+  pass draw : raster { shader "draw.vert" "draw.frag"  state points  read points as vertex  color seen clear 9  draw 2 { vertex Point } })" +
+                               kShow},
               {"make.comp",
                "void main() { for (uint i = 0u; i < 2u; ++i) { uint b = 8u * i;\n"
                "  words[b] = floatBitsToUint(i == 0u ? -0.875 : 0.125); words[b + 1u] = floatBitsToUint(-0.875);\n"
@@ -65,8 +66,10 @@ graph frame() {
   buffer vertices : Vertex[12]
   buffer places   : Place[4]
   buffer args     : u32[5]
-  buffer packed   : u32[)" + std::to_string(2 * width) + R"(]
-  buffer indices  : )" + element + R"([8]
+  buffer packed   : u32[)" + std::to_string(2 * width) +
+                               R"(]
+  buffer indices  : )" + element +
+                               R"([8]
   pass make : compute { shader "make.comp" group 1 1 1  write vertices as storage  write places as storage  write packed as storage  write args as storage  dispatch groups 1 }
   pass load : transfer { copy packed -> indices }
   pass draw : raster {
@@ -74,7 +77,8 @@ graph frame() {
     state  points
     read   vertices as vertex
     read   places.bytes(4, 12) as vertex
-    read   indices.bytes)" + bytes + R"( as index
+    read   indices.bytes)" + bytes +
+                               R"( as index
     color  seen clear 99
     draw   )" + counted + R"( { vertex Vertex  instance Place }
   })" + kShow},
@@ -110,7 +114,8 @@ TEST(Drawing, DrawsBeginAtTheirFirstVertex) {
 state points { cull none  topology points }
 graph frame() {
   image seen : r32ui 8x8
-  pass draw : raster { shader "draw.vert" "draw.frag"  state points  color seen clear 0  draw 3 instances 2 first 5 })" + kShow},
+  pass draw : raster { shader "draw.vert" "draw.frag"  state points  color seen clear 0  draw 3 instances 2 first 5 })" +
+                               kShow},
               {"draw.vert",
                "void main() { gl_PointSize = 1.0;\n"
                "  gl_Position = vec4((float(gl_VertexIndex) + 0.5) / 4.0 - 1.0, (float(gl_InstanceIndex) + 0.5) / 4.0 - 1.0, 0.0, 1.0); }"},
@@ -133,7 +138,8 @@ graph frame() {
   image seen : r32ui 8x8
   image mask : s8 8x8
   pass mark  : raster { fullscreen "mark.frag"  state mark  stencil mask clear 0 }
-  pass paint : raster { fullscreen "paint.frag"  state masked  stencil mask readonly  color seen clear 1 })" + kShow},
+  pass paint : raster { fullscreen "paint.frag"  state masked  stencil mask readonly  color seen clear 1 })" +
+                               kShow},
               {"mark.frag", "void main() { if ((int(gl_FragCoord.x) + int(gl_FragCoord.y)) % 3 != 0) discard; }"},
               {"paint.frag", "void main() { seen = uvec4(2); }"},
               {"show.comp", kShowShader}});
@@ -155,7 +161,8 @@ graph frame() {
   image seen : r32ui 8x8
   image both : d32f_s8 8x8
   pass count : raster { shader "halves.vert" "none.frag"  state count  depth both clear 0.25  stencil both clear 32  draw 6 }
-  pass look  : raster { fullscreen "look.frag"  read both.stencil as sampled  color seen })" + kShow},
+  pass look  : raster { fullscreen "look.frag"  read both.stencil as sampled  color seen })" +
+                               kShow},
               {"halves.vert", kHalves},
               {"none.frag", "void main() {}"},
               {"look.frag", "void main() { seen = texelFetch(both_stencil, ivec2(gl_FragCoord.xy), 0); }"},
@@ -174,7 +181,8 @@ TEST(Drawing, AttachmentsAreSeenInOtherFormats) {
   RUN(words, {{"frame.rg", R"(
 graph frame() {
   image seen : r32ui 8x8
-  pass paint : raster { fullscreen "paint.frag"  color texel = seen.view(rgba8) })" + kShow},
+  pass paint : raster { fullscreen "paint.frag"  color texel = seen.view(rgba8) })" +
+                               kShow},
               {"paint.frag", "void main() { texel = vec4(floor(gl_FragCoord.x) / 255.0, 0.2, 0.0, 1.0); }"},
               {"show.comp", kShowShader}});
   for (uint32_t i = 0; i < 64; ++i) EXPECT_EQ(words[i], 0xFF003300u + i % 8) << i;
@@ -227,7 +235,8 @@ graph frame() {
   }
 }
 
-const Files kStereo = {{"frame.rg", R"(
+const Files kStereo = {
+    {"frame.rg", R"(
 struct Vertex { at: vec2 }
 graph frame() {
   image  eyes  : r32ui 8x8 layers 3
@@ -238,14 +247,15 @@ graph frame() {
   pass show  : compute { shader "show.comp" group 8 8 1  read seen as sampled  write shown as storage  dispatch over 8x8 }
 }
 )"},
-                       {"draw.frag", "void main() { eyes = uvec4(100 * gl_ViewIndex + int(gl_FragCoord.x)); }"},
-                       {"twice.frag", "void main() { seen = eyes * 2u + uint(gl_ViewIndex); }"},
-                       {"show.comp",
-                        "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(seen, ivec3(at, at.y % 3), 0).x; }"}};
+    {"draw.frag", "void main() { eyes = uvec4(100 * gl_ViewIndex + int(gl_FragCoord.x)); }"},
+    {"twice.frag", "void main() { seen = eyes * 2u + uint(gl_ViewIndex); }"},
+    {"show.comp",
+     "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); shown[8 * at.y + at.x] = texelFetch(seen, ivec3(at, at.y % 3), 0).x; }"}};
 
 TEST(Drawing, EveryViewIsDrawn) {
   auto device = Device::create({});
-  if (device && !device->has(Capability::multiview)) GTEST_SKIP() << "`" << device->name() << "` has no multiview; ./x test --driver backports brings one that has";
+  if (device && !device->has(Capability::multiview))
+    GTEST_SKIP() << "`" << device->name() << "` has no multiview; ./x test --driver backports brings one that has";
   RUN(words, kStereo);
   for (uint32_t i = 0; i < 64; ++i) EXPECT_EQ(words[i], 2 * (100 * (i / 8 % 3) + i % 8) + i / 8 % 3) << i;
 }

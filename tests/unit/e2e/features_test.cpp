@@ -23,7 +23,7 @@ graph frame() {
   }
 }
 )"},
-                                                   {"show.comp", R"(void main() {
+                      {"show.comp", R"(void main() {
   uint value = gl_GlobalInvocationID.x + 100u * path;
   if (double_it) value *= 2u;
 #if FEATURE_path == 2
@@ -88,7 +88,7 @@ graph frame() {
   }
 }
 )"},
-                                                   {"show.comp", R"(
+                       {"show.comp", R"(
 #if FEATURE_sums
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #endif
@@ -108,7 +108,7 @@ void main() {
   if (i == 0u) shown[64] = total;
 }
 )"},
-                                                   {"more.comp", "void main() { shown[gl_LocalInvocationIndex] += 1000u; }\n"}};
+                       {"more.comp", "void main() { shown[gl_LocalInvocationIndex] += 1000u; }\n"}};
 
 void expect_frames(Device& device, const Plan& plan) {
   auto graph = GraphInstance::create(device, plan, {});

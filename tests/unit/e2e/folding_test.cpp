@@ -6,7 +6,8 @@
 namespace rg::test {
 namespace {
 
-// Half of every second pixel is covered, over a clear that shows through; depth and stencil keep what a clear left, so that both decide what is drawn.
+// Half of every second pixel is covered, over a clear that shows through; depth and stencil keep what a clear left, so that both decide what is
+// drawn.
 const Files kFrame = {{"frame.rg", R"(
 state left { cull none  depth test less  stencil test equal  stencil reference 3 }
 graph frame() {
@@ -17,7 +18,8 @@ graph frame() {
   pass wipe    : transfer { clear many (0.25, 0.5, 0.75, 1.0)  clear solid (0.5, 3) }
   pass draw    : raster { shader "halves.vert" "tint.frag"  state left  color many blend add(one, one)  depth solid  stencil solid  draw 24 }
   pass flatten : transfer { resolve many -> one }
-  pass pack    : compute { shader "pack.comp" group 8 8 1  read one as sampled  write seen as storage  dispatch over 8x8 })" + kShow},
+  pass pack    : compute { shader "pack.comp" group 8 8 1  read one as sampled  write seen as storage  dispatch over 8x8 })" +
+                                       kShow},
                       {"halves.vert", R"(void main() {
   int stripe = gl_VertexIndex / 6, corner = gl_VertexIndex % 6;
   const vec2 kCorners[6] = vec2[](vec2(0, 0), vec2(0.4, 0), vec2(0, 8), vec2(0.4, 0), vec2(0, 8), vec2(0.4, 8));

@@ -16,17 +16,17 @@ uint32_t stir(uint32_t hash, uint32_t value) { return (hash ^ value) * kMultipli
 
 constexpr const char* kStir = "uint stir(uint hash, uint value) { return (hash ^ value) * 0x9E3779B1u + 0x7F4A7C15u; }\n";
 
-struct Cell {  // one subresource of an image, or a whole buffer
-  std::string place;         // "i1.mip(0).layer(1)"
+struct Cell {         // one subresource of an image, or a whole buffer
+  std::string place;  // "i1.mip(0).layer(1)"
   size_t resource = 0;
   uint32_t mip = 0;
   bool buffer = false;
-  bool defined = false;      // in program order, so far
+  bool defined = false;  // in program order, so far
 };
 struct Declared {
   std::string name, declaration = {};
   bool buffer = false, history = false;
-  uint32_t scale = 1;        // images: of the view
+  uint32_t scale = 1;  // images: of the view
   std::vector<size_t> cells = {};
 };
 
@@ -69,7 +69,8 @@ class Generator {
   void declare_image(const std::string& name, bool history) {
     Declared image{.name = name, .history = history, .scale = 1 + below(2)};
     const uint32_t mips = history ? 1 : 1 + below(3), layers = history ? 1 : 1 + below(2);
-    image.declaration = fmt::format("image {} : r32ui view / {} mips {} layers {}{}", name, image.scale, mips, layers, history ? " history 1 init clear 7" : "");
+    image.declaration =
+        fmt::format("image {} : r32ui view / {} mips {} layers {}{}", name, image.scale, mips, layers, history ? " history 1 init clear 7" : "");
     for (uint32_t mip = 0; mip < mips; ++mip)
       for (uint32_t layer = 0; layer < layers; ++layer)
         add_cell(image, name + (mips > 1 ? fmt::format(".mip({})", mip) : "") + (layers > 1 ? fmt::format(".layer({})", layer) : ""), mip);
@@ -107,11 +108,21 @@ class Generator {
   void add_pass() {
     const size_t target = any_cell();
     switch (below(8)) {
-      case 0: add_clear(target); break;
-      case 1: add_copy(target); break;
-      case 2: add_raster(target); break;
-      case 3: add_atomic(target); break;
-      default: add_compute(target, cells_[target].defined && below(3) == 0); break;
+      case 0:
+        add_clear(target);
+        break;
+      case 1:
+        add_copy(target);
+        break;
+      case 2:
+        add_raster(target);
+        break;
+      case 3:
+        add_atomic(target);
+        break;
+      default:
+        add_compute(target, cells_[target].defined && below(3) == 0);
+        break;
     }
     if (below(3) == 0) add_probe(target);
   }
@@ -139,9 +150,12 @@ class Generator {
     const bool storage = cells_[cell].buffer || below(4) == 0;
     Source result;
     result.statement = fmt::format("    read {} = {} as {}\n", name, place, storage ? "storage" : "sampled");
-    if (cells_[cell].buffer) result.fetch = fmt::format("{}[min(uint(p.x), {}u)]", name, kElements - 1);
-    else if (storage) result.fetch = fmt::format("imageLoad({0}, min(p, imageSize({0}) - 1)).r", name);
-    else result.fetch = fmt::format("texelFetch({0}, min(p, textureSize({0}, 0) - 1), 0).r", name);
+    if (cells_[cell].buffer)
+      result.fetch = fmt::format("{}[min(uint(p.x), {}u)]", name, kElements - 1);
+    else if (storage)
+      result.fetch = fmt::format("imageLoad({0}, min(p, imageSize({0}) - 1)).r", name);
+    else
+      result.fetch = fmt::format("texelFetch({0}, min(p, textureSize({0}, 0) - 1), 0).r", name);
     result.value = [cell, previous](const Memory& memory) { return previous ? memory.before[cell] : memory.now[cell]; };
     return result;
   }
@@ -176,8 +190,9 @@ class Generator {
     const uint32_t seed = static_cast<uint32_t>(random_());
     const std::vector<Source> sources = pick_sources(target);
     const bool buffer = cells_[target].buffer;
-    text_ += fmt::format("  pass {0} : compute {{\n    shader \"{0}.comp\" group {1}\n{2}    {3} target = {4} as storage\n    dispatch over {5}\n  }}\n", name,
-                         buffer ? "64 1 1" : "8 8 1", statements(sources), update ? "update" : "write", cells_[target].place, size_of(target));
+    text_ +=
+        fmt::format("  pass {0} : compute {{\n    shader \"{0}.comp\" group {1}\n{2}    {3} target = {4} as storage\n    dispatch over {5}\n  }}\n",
+                    name, buffer ? "64 1 1" : "8 8 1", statements(sources), update ? "update" : "write", cells_[target].place, size_of(target));
     std::string shader = std::string(kStir) + "void main() {\n  ivec2 p = ivec2(gl_GlobalInvocationID.xy);\n";
     shader += buffer ? fmt::format("  if (p.x >= {}) return;\n", kElements) : "  if (any(greaterThanEqual(p, imageSize(target)))) return;\n";
     shader += hash_text(seed, sources);
@@ -193,7 +208,8 @@ class Generator {
     const std::string name = next_name();
     const uint32_t seed = static_cast<uint32_t>(random_());
     const std::vector<Source> sources = pick_sources(target);
-    text_ += fmt::format("  pass {0} : raster {{\n    fullscreen \"{0}.frag\"\n{1}    color target = {2}\n  }}\n", name, statements(sources), cells_[target].place);
+    text_ += fmt::format("  pass {0} : raster {{\n    fullscreen \"{0}.frag\"\n{1}    color target = {2}\n  }}\n", name, statements(sources),
+                         cells_[target].place);
     files_[name + ".frag"] =
         std::string(kStir) + "void main() {\n  ivec2 p = ivec2(gl_FragCoord.xy);\n" + hash_text(seed, sources) + "  target = uvec4(hash);\n}\n";
     effects_.push_back(store_hash(target, seed, sources, false));
@@ -226,10 +242,11 @@ class Generator {
     for (uint32_t i = 1 + below(3); i > 0; --i) {
       const std::string name = next_name();
       const uint32_t amount = 1 + below(100);
-      text_ += fmt::format("  pass {0} : compute {{\n    shader \"{0}.comp\" group 64 1 1\n    atomic target = {1} as storage\n    dispatch over {2}\n  }}\n", name,
-                           cells_[target].place, kElements);
-      files_[name + ".comp"] =
-          fmt::format("void main() {{\n  if (gl_GlobalInvocationID.x < {}u) atomicAdd(target[gl_GlobalInvocationID.x], {}u);\n}}\n", kElements, amount);
+      text_ += fmt::format(
+          "  pass {0} : compute {{\n    shader \"{0}.comp\" group 64 1 1\n    atomic target = {1} as storage\n    dispatch over {2}\n  }}\n", name,
+          cells_[target].place, kElements);
+      files_[name + ".comp"] = fmt::format(
+          "void main() {{\n  if (gl_GlobalInvocationID.x < {}u) atomicAdd(target[gl_GlobalInvocationID.x], {}u);\n}}\n", kElements, amount);
       effects_.push_back([=](Memory& memory, std::vector<uint32_t>&) { memory.now[target] += amount; });
     }
   }
@@ -239,7 +256,8 @@ class Generator {
     const std::string name = fmt::format("probe{}", probes_.size());
     const bool buffer = cells_[cell].buffer;
     text_ += fmt::format(
-        "  pass {0} : compute {{\n    shader \"{0}.comp\" group {1}\n    read source = {2} as {3}\n    atomic least as storage\n    atomic greatest as storage\n"
+        "  pass {0} : compute {{\n    shader \"{0}.comp\" group {1}\n    read source = {2} as {3}\n    atomic least as storage\n    atomic greatest "
+        "as storage\n"
         "    dispatch over {4}\n  }}\n",
         name, buffer ? "64 1 1" : "8 8 1", cells_[cell].place, buffer ? "storage" : "sampled", size_of(cell));
     files_[name + ".comp"] = fmt::format(
@@ -263,7 +281,10 @@ class Generator {
     std::string text = "module random\n\nextent view = runtime(40, 24) max(64, 64)\n\ngraph frame() {\n";
     for (const Declared& declared : declared_) text += "  " + declared.declaration + "\n";
     const size_t n = probes_.size();
-    text += fmt::format("  buffer least : u32[{0}]\n  buffer greatest : u32[{0}]\n  buffer least_found : u32[{0}] readback\n  buffer greatest_found : u32[{0}] readback\n", n);
+    text += fmt::format(
+        "  buffer least : u32[{0}]\n  buffer greatest : u32[{0}]\n  buffer least_found : u32[{0}] readback\n  buffer greatest_found : u32[{0}] "
+        "readback\n",
+        n);
     text += "  pass start : transfer { fill least 4294967295  fill greatest 0 }\n";
     return text + text_ + "  pass finish : transfer { copy least -> least_found  copy greatest -> greatest_found }\n}\n";
   }

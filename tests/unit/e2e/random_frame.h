@@ -12,9 +12,9 @@
 namespace rg::test {
 
 struct RandomFrame {
-  std::map<std::string, std::string> files;      // "random.rg" and its shaders
-  std::vector<std::vector<uint32_t>> expected;   // by frame: the number each probe must find everywhere
-  std::vector<std::string> probes;               // "frame 2, i1.mip(0).layer(1) after p7": what each number is, for messages
+  std::map<std::string, std::string> files;     // "random.rg" and its shaders
+  std::vector<std::vector<uint32_t>> expected;  // by frame: the number each probe must find everywhere
+  std::vector<std::string> probes;              // "frame 2, i1.mip(0).layer(1) after p7": what each number is, for messages
 };
 
 // `frames` frames of a graph of about `passes` passes besides its probes. The same seed gives the same program.

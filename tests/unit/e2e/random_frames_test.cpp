@@ -72,8 +72,8 @@ std::string findings_text(const std::vector<verify::Finding>& findings) {
 
 void prove(const compiler::CompileResult& result, uint64_t seed) {
   const compiler::FramePlan& frame = result.graphs[0].plans[0];
-  const auto findings = verify::verify(result.program, dsl::GraphId{0}, frame.configuration, frame.plan.view(), frame.plan.program_pass,
-                                       frame.plan.program_resource);
+  const auto findings =
+      verify::verify(result.program, dsl::GraphId{0}, frame.configuration, frame.plan.view(), frame.plan.program_pass, frame.plan.program_resource);
   EXPECT_TRUE(findings.empty()) << "seed " << seed << "\n" << findings_text(findings);
 }
 

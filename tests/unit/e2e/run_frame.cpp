@@ -17,11 +17,13 @@ void expect_proved(const compiler::CompileResult& result) {
       for (const verify::Finding& finding :
            verify::verify(result.program, graph.graph, plan.configuration, plan.plan.view(), plan.plan.program_pass, plan.plan.program_resource))
         ADD_FAILURE() << finding.text;
-      for (const verify::Finding& finding : verify::verify_folding(result.unfolded, result.program, graph.graph, plan.configuration)) ADD_FAILURE() << finding.text;
+      for (const verify::Finding& finding : verify::verify_folding(result.unfolded, result.program, graph.graph, plan.configuration))
+        ADD_FAILURE() << finding.text;
     }
 }
 
-std::optional<Words> run(const Files& files, uint32_t frames, bool validate, std::vector<Capability> without, const compiler::PlanOptions& plan_options) {
+std::optional<Words> run(const Files& files, uint32_t frames, bool validate, std::vector<Capability> without,
+                         const compiler::PlanOptions& plan_options) {
   const compiler::CompileResult result = compile_files(files, plan_options);
   if (result.graphs.empty() || result.graphs[0].plans.empty()) return Words{};
   expect_proved(result);

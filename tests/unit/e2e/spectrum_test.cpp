@@ -45,7 +45,7 @@ graph frame() {
   }
 }
 )"},
-                                                   {"mark.comp", R"(void main() {
+                      {"mark.comp", R"(void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= uint(masks.length())) return;
   uint x = i * 2654435761u;
@@ -55,7 +55,7 @@ graph frame() {
   masks[i] = i % 3u == 0u ? 1u : mask;
 }
 )"},
-                                                   {"shade.comp", R"(void main() {
+                      {"shade.comp", R"(void main() {
   uvec2 pixel = spectrum_pixel(), tile = spectrum_tile();
   if (pixel.x >= 203u || pixel.y >= 117u) return;
   uint mask = own[tile.y * 26u + tile.x], value = 0u;
@@ -66,7 +66,7 @@ graph frame() {
   shown[pixel.y * 203u + pixel.x] += value + 0x1000000u;
 }
 )"},
-                                                   {"tiles.json", R"({ "schema": "rgc-spectrum-1", "spectrum": "kinds", "scenes": [ { "masks": [
+                      {"tiles.json", R"({ "schema": "rgc-spectrum-1", "spectrum": "kinds", "scenes": [ { "masks": [
   { "features": ["red"], "tiles": 300 }, { "features": ["green", "blue"], "tiles": 90 }, { "features": [], "tiles": 40 },
   { "features": ["red", "deep_red"], "tiles": 70 } ] } ] })"}};
 

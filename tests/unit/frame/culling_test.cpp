@@ -80,8 +80,8 @@ TEST(TileLights, HoldEveryLightThatReachesAPixel) {
   Lab& lab = plaza_lab();
   for (size_t camera = 0; camera < plaza().cameras.size(); ++camera) {
     const FrameData data = lab.prepare(camera, {.number = 3, .noise = false, .animate = true});
-    const std::vector<Dump> all =
-        lab.dumps(data, {{pass::depth_props, resource::depth}, {pass::light_cull, resource::tile_lights}, {pass::light_cull, resource::forward_lights}});
+    const std::vector<Dump> all = lab.dumps(
+        data, {{pass::depth_props, resource::depth}, {pass::light_cull, resource::tile_lights}, {pass::light_cull, resource::forward_lights}});
     const Texels depth = texels_of(all[0]);
     const std::vector<uint32_t> solid = values_of<uint32_t>(all[1]), forward = values_of<uint32_t>(all[2]);
     uint32_t missing = 0;

@@ -267,8 +267,8 @@ uint64_t volume_bytes(const Plan& plan, std::initializer_list<std::string_view> 
   return sum;
 }
 
-// The table of the talk, in kB: 5150, 10310, 15460, together 30920, and 7730 for what the merged kernel writes. Its first figure counts another 16 bits
-// a froxel, which its other figures do not read; one write is enough here.
+// The table of the talk, in kB: 5150, 10310, 15460, together 30920, and 7730 for what the merged kernel writes. Its first figure counts another 16
+// bits a froxel, which its other figures do not read; one write is enough here.
 TEST(FogBytes, AreThoseOfTheTalk) {
   FogLab lab;
   const uint64_t froxels = 112 * 90 * 128, half = 2 * froxels;

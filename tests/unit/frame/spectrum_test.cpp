@@ -1,8 +1,9 @@
 // A9: the lighting as a spectrum. Every tile is in one list, that of a kernel with all its features, and the picture is that of the full kernel.
+#include "examples/demo/spectrum.h"
+
 #include <algorithm>
 #include <bit>
 
-#include "examples/demo/spectrum.h"
 #include "tests/unit/frame/lab.h"
 
 namespace rg::test {
@@ -55,7 +56,8 @@ TEST(LightSpectrum, KernelsAscendToTheOneWithEverything) {
   EXPECT_EQ(std::size(Features::features), static_cast<size_t>(frame::LAMP_FEATURES));
   ASSERT_GE(kKernels, 2u);
   EXPECT_EQ(Features::kernels[kKernels - 1], kAll);
-  for (const uint32_t set : Features::kernels) EXPECT_TRUE((set & frame::LAMP_SOFT) == 0 || (set & frame::LAMP_SHADOW) != 0) << set << ": soft shadows are shadows";
+  for (const uint32_t set : Features::kernels)
+    EXPECT_TRUE((set & frame::LAMP_SOFT) == 0 || (set & frame::LAMP_SHADOW) != 0) << set << ": soft shadows are shadows";
 }
 
 TEST(LightSpectrum, EveryTileIsInExactlyOneList) {

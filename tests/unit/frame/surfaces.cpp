@@ -102,7 +102,8 @@ double visibility(ShadowMap map, const frame::Light& light, glm::dvec3 p, glm::d
 GBuffer read_gbuffer(Lab& lab, const FrameData& data) {
   const Index after = pass::gbuffer_props;
   const std::vector<Dump> all = lab.dumps(
-      data, {{after, resource::depth}, {after, resource::albedo}, {after, resource::normal}, {after, resource::material}, {after, resource::emissive}});
+      data,
+      {{after, resource::depth}, {after, resource::albedo}, {after, resource::normal}, {after, resource::material}, {after, resource::emissive}});
   return {texels_of(all[0]), texels_of(all[1]), texels_of(all[2]), texels_of(all[3]), texels_of(all[4])};
 }
 

@@ -1,4 +1,5 @@
-// passes.rg planned with each combination of the planner's switches, on two queues, loaded as a plan file and drawn: the pictures are the same to the bit.
+// passes.rg planned with each combination of the planner's switches, on two queues, loaded as a plan file and drawn: the pictures are the same to the
+// bit.
 #include <bit>
 #include <cstdlib>
 #include <set>

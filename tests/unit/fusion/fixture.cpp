@@ -54,9 +54,8 @@ void prove(const compiler::CompileResult& result) {
 void run_machine(const compiler::CompileResult& result) {
   for (const compiler::CompiledGraph& graph : result.graphs)
     for (const compiler::FramePlan& frame : graph.plans)
-      for (const machine::Divergence& divergence :
-           machine::run_adversarially(result.program, graph.graph, frame.configuration, frame.plan.view(), frame.plan.program_pass,
-                                      frame.plan.program_resource, {}))
+      for (const machine::Divergence& divergence : machine::run_adversarially(result.program, graph.graph, frame.configuration, frame.plan.view(),
+                                                                              frame.plan.program_pass, frame.plan.program_resource, {}))
         ADD_FAILURE() << machine::text(divergence);
 }
 

@@ -56,12 +56,12 @@ struct FormatCase {
   uint32_t components;
 };
 constexpr FormatCase kFormats[] = {
-    {"r8", 'f', 1},          {"rg8", 'f', 2},          {"rgba8", 'f', 4},         {"r8_snorm", 'f', 1},    {"rg8_snorm", 'f', 2},  {"rgba8_snorm", 'f', 4},
-    {"r16", 'f', 1},         {"rg16", 'f', 2},         {"rgba16", 'f', 4},        {"r16_snorm", 'f', 1},   {"rg16_snorm", 'f', 2}, {"rgba16_snorm", 'f', 4},
-    {"r16f", 'f', 1},        {"rg16f", 'f', 2},        {"rgba16f", 'f', 4},       {"r32f", 'f', 1},        {"rg32f", 'f', 2},      {"rgba32f", 'f', 4},
-    {"r11g11b10f", 'f', 3},  {"rgb10a2", 'f', 4},      {"rgb10a2ui", 'u', 4},     {"r8ui", 'u', 1},        {"rg8ui", 'u', 2},      {"rgba8ui", 'u', 4},
-    {"r16ui", 'u', 1},       {"rg16ui", 'u', 2},       {"rgba16ui", 'u', 4},      {"r32ui", 'u', 1},       {"rgba32ui", 'u', 4},   {"r8i", 'i', 1},
-    {"rg8i", 'i', 2},        {"rgba8i", 'i', 4},       {"r16i", 'i', 1},          {"rg16i", 'i', 2},       {"rgba16i", 'i', 4},    {"r32i", 'i', 1},
+    {"r8", 'f', 1},         {"rg8", 'f', 2},     {"rgba8", 'f', 4},     {"r8_snorm", 'f', 1},  {"rg8_snorm", 'f', 2},  {"rgba8_snorm", 'f', 4},
+    {"r16", 'f', 1},        {"rg16", 'f', 2},    {"rgba16", 'f', 4},    {"r16_snorm", 'f', 1}, {"rg16_snorm", 'f', 2}, {"rgba16_snorm", 'f', 4},
+    {"r16f", 'f', 1},       {"rg16f", 'f', 2},   {"rgba16f", 'f', 4},   {"r32f", 'f', 1},      {"rg32f", 'f', 2},      {"rgba32f", 'f', 4},
+    {"r11g11b10f", 'f', 3}, {"rgb10a2", 'f', 4}, {"rgb10a2ui", 'u', 4}, {"r8ui", 'u', 1},      {"rg8ui", 'u', 2},      {"rgba8ui", 'u', 4},
+    {"r16ui", 'u', 1},      {"rg16ui", 'u', 2},  {"rgba16ui", 'u', 4},  {"r32ui", 'u', 1},     {"rgba32ui", 'u', 4},   {"r8i", 'i', 1},
+    {"rg8i", 'i', 2},       {"rgba8i", 'i', 4},  {"r16i", 'i', 1},      {"rg16i", 'i', 2},     {"rgba16i", 'i', 4},    {"r32i", 'i', 1},
 };
 
 // Every pattern of the upper 16 bits; `near` keeps floats where a normalised format has steps.
@@ -92,7 +92,8 @@ Files format_files(const FormatCase& format, bool near) {
   bits ^= part * 0x9E3779B9u;
   uint low = bits * 2654435761u;
   bits |= (low >> 13) & 0xFFFFu;
-  )" + body + "\n}\nvoid element(ivec2 at) { value = " + (format.components == 1 ? value : type + "(" + value + ")") + "; }\n"},
+  )" + body +
+                            "\n}\nvoid element(ivec2 at) { value = " + (format.components == 1 ? value : type + "(" + value + ")") + "; }\n"},
           {"show.glsl", "void element(ivec2 at) { shown.v = uvec4(" + bits + "); }\n"}};
 }
 
@@ -158,12 +159,14 @@ Files random_chain(uint32_t seed, const char* const* formats, size_t format_coun
       sum += " + weight(i" + std::to_string(from) + ", " + std::to_string(0.1 + 0.2 * static_cast<double>(pick(4))) + ")";
     }
     const bool last = b + 1 == blocks;
-    passes += "    pass p" + number + " : compute {\n      block  \"b" + number + ".glsl\"\n" + reads + "      write  o = " + image + " as element\n" +
-              (last ? "      write  shown as element\n" : "") + "      dispatch over size\n    }\n";
-    files["b" + number + ".glsl"] = "const float SCALE = " + std::to_string(1 + pick(3)) + ".0;\nstruct Pair { vec4 value; float i; };\n"
-        "vec4 weight(vec4 value, float by) {\n  precise Pair p = Pair(value * by, SCALE);\n  precise vec4 r = p.value * p.i + 0.125;\n  return r;\n}\n"
-        "void element(ivec2 at) {\n  precise vec4 sum = " + sum + ";\n  o = fract(sum * 0.37 + SCALE);\n" +
-        (last ? "  shown.v = floatBitsToUint(o);\n" : "") + "}\n";
+    passes += "    pass p" + number + " : compute {\n      block  \"b" + number + ".glsl\"\n" + reads + "      write  o = " + image +
+              " as element\n" + (last ? "      write  shown as element\n" : "") + "      dispatch over size\n    }\n";
+    files["b" + number + ".glsl"] = "const float SCALE = " + std::to_string(1 + pick(3)) +
+                                    ".0;\nstruct Pair { vec4 value; float i; };\n"
+                                    "vec4 weight(vec4 value, float by) {\n  precise Pair p = Pair(value * by, SCALE);\n  precise vec4 r = p.value * "
+                                    "p.i + 0.125;\n  return r;\n}\n"
+                                    "void element(ivec2 at) {\n  precise vec4 sum = " +
+                                    sum + ";\n  o = fract(sum * 0.37 + SCALE);\n" + (last ? "  shown.v = floatBitsToUint(o);\n" : "") + "}\n";
   }
   files["main.rg"] = "module main\nextent size = runtime(61, 37) max(64, 64)\nstruct Four { v: uvec4 }\ngraph g() {\n" + resources +
                      "  buffer shown : Four[size.area] readback\n  fuse chain {\n" + passes + "  }\n}\n";
@@ -213,7 +216,8 @@ graph g() {
   buffer shown : Four[size.area] readback
   fuse lines {
     pass make : compute { block "make.glsl"  write source as element  dispatch over size }
-    pass sum : compute { block "sum.glsl" )" + lines + R"(  read source as element  write total as element  dispatch over size }
+    pass sum : compute { block "sum.glsl" )" +
+                          lines + R"(  read source as element  write total as element  dispatch over size }
     pass use_it : compute {
       block "use.glsl"
       read source as element  read total as element  write kept as element  write shown as element
@@ -222,8 +226,9 @@ graph g() {
   }
 }
 )"},
-          {"make.glsl", "void element(ivec3 at) {\n  uint h = uint(at.x * 31 + at.y * 57 + at.z * 101) * 2654435761u;\n"
-                        "  source = vec4(float(h >> 20) / 4096.0, float(h & 1023u) / 512.0, 0.25, 1.0);\n}\n"},
+          {"make.glsl",
+           "void element(ivec3 at) {\n  uint h = uint(at.x * 31 + at.y * 57 + at.z * 101) * 2654435761u;\n"
+           "  source = vec4(float(h >> 20) / 4096.0, float(h & 1023u) / 512.0, 0.25, 1.0);\n}\n"},
           {"sum.glsl", "Sum start(ivec3 at) { return Sum(vec2(float(at.x) * 0.01, 0.5), 1.0); }" + sums},
           {"use.glsl", "void element(ivec3 at) {\n  kept = total + source.x;\n  shown.v = floatBitsToUint(kept);\n}\n"}};
 }
@@ -275,7 +280,8 @@ TEST(Fusion, IsChosenByAFeature) {
   EXPECT_EQ(graph.plans[0].plan.passes.size(), 2u);
   EXPECT_EQ(graph.plans[1].plan.passes.size(), 1u);
   prove(compiled.result);
-  const auto off = run(compile_files(files, true, {"together=off"}).result, "shown"), on = run(compile_files(files, true, {"together=on"}).result, "shown");
+  const auto off = run(compile_files(files, true, {"together=off"}).result, "shown"),
+             on = run(compile_files(files, true, {"together=on"}).result, "shown");
   if (off && on) expect_equal({on, off, 0}, "by feature");
 }
 

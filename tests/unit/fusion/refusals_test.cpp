@@ -22,7 +22,8 @@ Files pair_of(const std::string& a, const std::string& b, const std::string& fir
   image shown : rgba16f view output
   fuse both {
     pass first : compute {
-)" + a + "\n    }\n    pass second : compute {\n" + b + "\n    }\n  }\n}\n"},
+)" + a + "\n    }\n    pass second : compute {\n" +
+                          b + "\n    }\n  }\n}\n"},
           {"first.glsl", first_glsl},
           {"second.glsl", second_glsl}};
 }
@@ -35,16 +36,19 @@ bool says(const std::string& all, const std::string& part) { return all.find(par
 TEST(Blocks, FuseWhereTheyMeetAtElements) { EXPECT_EQ(messages(pair_of(kFirst, kSecond)), ""); }
 
 TEST(Refusals, NameTheAccess) {
-  const std::string all = messages(pair_of(kFirst, "block \"second.glsl\"\n read mid as sampled(linear)\n write shown as element\n dispatch over view",
-                                           "void element(ivec2 at) { mid = vec4(at, 0, 1); }", "void element(ivec2 at) { shown = textureLod(mid, vec2(0.5), 0.0); }"));
-  EXPECT_EQ(all,
-            "RG0729 `fuse both` cannot merge pass `second` with those before it: `second` reads `mid` at any element, and `first` writes `mid` at its own "
-            "element\n  `first` writes `mid` at its own element\n  `second` reads `mid` at any element\n");
+  const std::string all =
+      messages(pair_of(kFirst, "block \"second.glsl\"\n read mid as sampled(linear)\n write shown as element\n dispatch over view",
+                       "void element(ivec2 at) { mid = vec4(at, 0, 1); }", "void element(ivec2 at) { shown = textureLod(mid, vec2(0.5), 0.0); }"));
+  EXPECT_EQ(
+      all,
+      "RG0729 `fuse both` cannot merge pass `second` with those before it: `second` reads `mid` at any element, and `first` writes `mid` at its own "
+      "element\n  `first` writes `mid` at its own element\n  `second` reads `mid` at any element\n");
 }
 
 TEST(Refusals, PointAtBothAccesses) {
-  const Compiled compiled = compile_files(pair_of(kFirst, "block \"second.glsl\"\n read mid as sampled(linear)\n write shown as element\n dispatch over view",
-                                                  "void element(ivec2 at) { mid = vec4(at, 0, 1); }", "void element(ivec2 at) { shown = textureLod(mid, vec2(0.5), 0.0); }"));
+  const Compiled compiled = compile_files(
+      pair_of(kFirst, "block \"second.glsl\"\n read mid as sampled(linear)\n write shown as element\n dispatch over view",
+              "void element(ivec2 at) { mid = vec4(at, 0, 1); }", "void element(ivec2 at) { shown = textureLod(mid, vec2(0.5), 0.0); }"));
   const std::string text = compiled.text();
   EXPECT_EQ(compiled.diagnostics.rows().back().notes.front().kind, dsl::DiagnosticKind::FusedWith);
   EXPECT_TRUE(says(text, "write mid as element")) << text;
@@ -57,12 +61,14 @@ struct Case {
 TEST(Refusals, SayWhatDiffers) {
   const Case cases[] = {
       {"domain", "block \"second.glsl\"\n write h = half as element\n dispatch over view / 2", "`first` runs over other elements"},
-      {"spare", "block \"second.glsl\"\n update mid as storage disjoint\n write shown as element\n dispatch over view", "`second` writes `mid` at any element"},
+      {"spare", "block \"second.glsl\"\n update mid as storage disjoint\n write shown as element\n dispatch over view",
+       "`second` writes `mid` at any element"},
   };
   for (const Case& row : cases) {
-    const std::string all = messages(pair_of(kFirst, row.second, "void element(ivec2 at) { mid = vec4(at, 0, 1); }",
-                                             row.what == std::string("domain") ? "void element(ivec2 at) { h = vec4(0); }"
-                                                                               : "void element(ivec2 at) { imageStore(mid, at, vec4(1)); shown = vec4(0); }"));
+    const std::string all =
+        messages(pair_of(kFirst, row.second, "void element(ivec2 at) { mid = vec4(at, 0, 1); }",
+                         row.what == std::string("domain") ? "void element(ivec2 at) { h = vec4(0); }"
+                                                           : "void element(ivec2 at) { imageStore(mid, at, vec4(1)); shown = vec4(0); }"));
     EXPECT_TRUE(says(all, row.expected)) << row.what << ": " << all;
   }
 }
@@ -86,9 +92,10 @@ TEST(Refusals, WhatIsBetweenStaysBetween) {
   Files files = pair_of(kFirst, kSecond);
   std::string& text = files["main.rg"];
   text.replace(text.find("fuse both"), 9, "fuse both may");
-  text.insert(text.find("    pass second"),
-              "    pass look : compute {\n      shader \"look.comp\" group 8 8 1\n      read mid as sampled\n      write other as storage\n      keep\n"
-              "      dispatch over view\n    }\n");
+  text.insert(
+      text.find("    pass second"),
+      "    pass look : compute {\n      shader \"look.comp\" group 8 8 1\n      read mid as sampled\n      write other as storage\n      keep\n"
+      "      dispatch over view\n    }\n");
   files["look.comp"] = "void main() { imageStore(other, ivec2(gl_GlobalInvocationID.xy), texelFetch(mid, ivec2(0), 0)); }";
   const Compiled compiled = compile_files(files);
   EXPECT_FALSE(compiled.diagnostics.has_errors()) << compiled.text();
@@ -125,8 +132,9 @@ std::string of_block(const std::string& glsl, const std::string& statements = kF
 
 TEST(Blocks, HaveNoPlaceOfTheirOwn) {
   const std::string all = of_block("void element(ivec2 at) { mid = vec4(gl_GlobalInvocationID, 1); }");
-  EXPECT_EQ(all, "RG0732 `gl_GlobalInvocationID` has no place in a block: where an element runs is the kernel's affair; `at` is its place\n"
-                 "  shader of pass `first`, named here\n");
+  EXPECT_EQ(all,
+            "RG0732 `gl_GlobalInvocationID` has no place in a block: where an element runs is the kernel's affair; `at` is its place\n"
+            "  shader of pass `first`, named here\n");
   EXPECT_TRUE(says(of_block("void element(ivec2 at) { barrier(); mid = vec4(0); }"), "elements do not wait for each other"));
   EXPECT_TRUE(says(of_block("shared float x; void element(ivec2 at) { mid = vec4(0); }"), "elements share no memory"));
   EXPECT_TRUE(says(of_block("void element(ivec2 at) { mid = subgroupAdd(vec4(1)); }"), "elements do not see their neighbours"));
@@ -146,9 +154,11 @@ TEST(Blocks, DoNotSeeEachOther) {
 }
 
 TEST(Blocks, KeepTheirNamesApart) {
-  const std::string helper = "const float K = 2.0;\n#define TWICE(x) ((x) * K)\nstruct S { float mid; };\nfloat f(float x) { S s = S(x); return TWICE(s.mid); }\n";
-  EXPECT_EQ(messages(pair_of(kFirst, kSecond, helper + "void element(ivec2 at) { mid = vec4(f(1.0)); }",
-                             "const int K = 3;\n#define TWICE(x) (K)\nint f(int x) { return TWICE(x); }\nvoid element(ivec2 at) { shown = mid * float(f(1)); }")),
+  const std::string helper =
+      "const float K = 2.0;\n#define TWICE(x) ((x) * K)\nstruct S { float mid; };\nfloat f(float x) { S s = S(x); return TWICE(s.mid); }\n";
+  EXPECT_EQ(messages(pair_of(
+                kFirst, kSecond, helper + "void element(ivec2 at) { mid = vec4(f(1.0)); }",
+                "const int K = 3;\n#define TWICE(x) (K)\nint f(int x) { return TWICE(x); }\nvoid element(ivec2 at) { shown = mid * float(f(1)); }")),
             "");
 }
 
@@ -194,13 +204,16 @@ graph g(params left: Gain, params right: Gain) {
 
 TEST(Blocks, NeedTheirFunctions) {
   EXPECT_EQ(of_block("void main() { mid = vec4(0); }"), "RG0733 block `first.glsl` does not define `element`\n");
-  EXPECT_EQ(of_block("void element(ivec2 at) { mid = vec4(0); }", "block \"first.glsl\" scan x f32 associative\n write mid as element\n dispatch over view"),
-            "RG0733 block `first.glsl` does not define `start`\nRG0733 block `first.glsl` does not define `own`\nRG0733 block `first.glsl` does not define "
-            "`join`\n");
+  EXPECT_EQ(
+      of_block("void element(ivec2 at) { mid = vec4(0); }",
+               "block \"first.glsl\" scan x f32 associative\n write mid as element\n dispatch over view"),
+      "RG0733 block `first.glsl` does not define `start`\nRG0733 block `first.glsl` does not define `own`\nRG0733 block `first.glsl` does not define "
+      "`join`\n");
 }
 
 TEST(Blocks, UseWhatTheyDeclare) {
-  EXPECT_EQ(of_block("void element(ivec2 at) { }"), "RG0403 `mid` is declared by pass `first` but none of its shaders uses it\n  shader of pass `first`, named here\n");
+  EXPECT_EQ(of_block("void element(ivec2 at) { }"),
+            "RG0403 `mid` is declared by pass `first` but none of its shaders uses it\n  shader of pass `first`, named here\n");
 }
 
 TEST(Blocks, ErrorsPointIntoTheirFiles) {

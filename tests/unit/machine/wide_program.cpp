@@ -20,7 +20,8 @@ class Generator {
            "interface Scene {\n  table: buffer u32[64] ready as storage in compute\n  maps: image rgba8 64x64 ready as sampled in fragment\n}\n"
            "technique halve(image source, inout image target) {\n  image half : rgba16f source / 2\n"
            "  pass down : compute" +
-           down + " { read source as sampled  write half as storage }\n"
+           down +
+           " { read source as sampled  write half as storage }\n"
            "  pass up : compute { read half as sampled  update target as storage }\n}\n"
            "graph frame(scene: Scene, surface backbuffer: rgba8 view) {\n  buffer found : u32[64] readback\n" +
            text_ + end + "}\n";

@@ -69,7 +69,8 @@ TEST(Antichain, IsTheLoadOverTimeForIntervals) {
   for (uint32_t seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
     std::vector<packing::Item> items(200);
-    for (packing::Item& item : items) item = {1 + random() % 1000, 1, static_cast<uint32_t>(random() % 100), 0}, item.end = item.begin + 1 + random() % 20;
+    for (packing::Item& item : items)
+      item = {1 + random() % 1000, 1, static_cast<uint32_t>(random() % 100), 0}, item.end = item.begin + 1 + random() % 20;
     std::vector<uint64_t> weights;
     Edges edges;
     for (uint32_t a = 0; a < items.size(); ++a) {

@@ -66,7 +66,8 @@ std::string lazy_text(const FramePlan& frame) {
 }
 TEST(Memory, AttachmentsOfOneRenderingMayLiveOnTheChip) {
   const char* body =
-      "image many : rgba16f view samples 4\n image depth : d32f view samples 4\n image one : rgba16f view\n image map : d32f view\n image side : rgba16f view\n"
+      "image many : rgba16f view samples 4\n image depth : d32f view samples 4\n image one : rgba16f view\n image map : d32f view\n image side : "
+      "rgba16f view\n"
       "pass opaque : raster { color many clear 0  depth depth clear 0  draw host {} }\n"
       "pass glass : raster { color many  depth depth  resolve many -> one  draw host {} }\n"
       "pass shadow : raster { depth map clear 0  draw host {} }\n"

@@ -138,15 +138,18 @@ TEST(Queues, OneOwnerAtATimeAndSharedReaders) {
 
 // `fog` reads the engine's image; what stands in braces is how that comes and goes.
 FramePlan with_engine_image(const std::string& state) {
-  return plan_of(program_of_text("module m\nextent view = runtime(64, 64) max(128, 128)\ninterface World { maps: image rgba8 view " + state + " }\n"
-                                 "graph g(world: World, surface backbuffer: rgba8 view after copy_src) {\n"
-                                 "  image fogged : r8 view\n  image depth : d32f view\n  image shadow : d32f view\n"
-                                 "  pass prepass : raster { depth depth clear 0.0  draw host {} }\n"
-                                 "  pass fog : compute queue compute may { read world.maps as sampled  read depth as sampled  write fogged as storage }\n"
-                                 "  pass shadows : raster { depth shadow clear 0.0  draw host {} }\n"
-                                 "  pass light : raster { read world.maps as sampled in fragment  read fogged as sampled in fragment\n"
-                                 "    read shadow as sampled in fragment  color backbuffer covers }\n}\n"),
-                 {.queues = {dsl::QueueKind::graphics, dsl::QueueKind::compute}, .measured_us = {{"prepass", 50}, {"fog", 200}, {"shadows", 250}, {"light", 100}}});
+  return plan_of(
+      program_of_text("module m\nextent view = runtime(64, 64) max(128, 128)\ninterface World { maps: image rgba8 view " + state +
+                      " }\n"
+                      "graph g(world: World, surface backbuffer: rgba8 view after copy_src) {\n"
+                      "  image fogged : r8 view\n  image depth : d32f view\n  image shadow : d32f view\n"
+                      "  pass prepass : raster { depth depth clear 0.0  draw host {} }\n"
+                      "  pass fog : compute queue compute may { read world.maps as sampled  read depth as sampled  write fogged as storage }\n"
+                      "  pass shadows : raster { depth shadow clear 0.0  draw host {} }\n"
+                      "  pass light : raster { read world.maps as sampled in fragment  read fogged as sampled in fragment\n"
+                      "    read shadow as sampled in fragment  color backbuffer covers }\n}\n"),
+      {.queues = {dsl::QueueKind::graphics, dsl::QueueKind::compute},
+       .measured_us = {{"prepass", 50}, {"fog", 200}, {"shadows", 250}, {"light", 100}}});
 }
 
 TEST(Queues, ImagesOfTheEngineAreSharedWhereNobodyChangesTheirLayout) {
@@ -198,10 +201,12 @@ TEST(Queues, SignalsNameWhatMemoryNeeds) {
   EXPECT_EQ(apart.plan.signals[apart.plan.batches[0].first_signal].stages & stage::compute_shader, 0u) << "nothing to take over, nothing to name";
 }
 
-// `show` waits for the other queue in its fragment shader. The hand-off to `second` names depth tests, the later of which come after that: it goes on after the wait.
+// `show` waits for the other queue in its fragment shader. The hand-off to `second` names depth tests, the later of which come after that: it goes on
+// after the wait.
 TEST(Queues, MemoryGoesToStagesAfterAWait) {
   const FramePlan frame = plan_of(
-      "image drawn : rgba16f 1024x1024\n image blurred : r8 view\n image meant : rgba16f 2048x1024\n image shown : r8 view\n image second : d32f 1024x1024\n"
+      "image drawn : rgba16f 1024x1024\n image blurred : r8 view\n image meant : rgba16f 2048x1024\n image shown : r8 view\n image second : d32f "
+      "1024x1024\n"
       "pass draw : raster { color drawn clear 0  draw host {} }\n"
       "pass blur : compute queue compute may { read drawn as sampled  write blurred as storage }\n"
       "pass meanwhile : raster { color meant clear 0  draw host {} }\n"

@@ -53,8 +53,8 @@ struct Obstacle {
 TEST(Renderings, ObstaclesAreNamed) {
   const Obstacle obstacles[] = {
       {"color albedo clear 0  depth depth", "", "it clears"},
-      {"color albedo  depth depth  read other as sampled in fragment",
-       "pass side : compute { read albedo as sampled  write other as storage }\n", "`side` has to run between them"},
+      {"color albedo  depth depth  read other as sampled in fragment", "pass side : compute { read albedo as sampled  write other as storage }\n",
+       "`side` has to run between them"},
       {"color albedo  depth depth readonly  read depth as sampled in fragment", "", "needs a barrier"},
   };
   for (const Obstacle& o : obstacles) {

@@ -254,12 +254,14 @@ TEST(Synchronise, NothingBluntAnywhere) {
 // Parts of a buffer join where they lie side by side, and only there.
 // Reads of `whole` in three groups; `middle` is what touches its middle third, `between` runs before the last of them.
 FramePlan thirds_of(const std::string& middle, const std::string& between = {}) {
-  return plan_of("buffer whole : u32[192]\n buffer first : u32[64]\n buffer last : u32[64]\n buffer middle : u32[64] output\n"
-                 "pass fill : compute { write whole as storage }\n"
-                 "pass read_first : compute { read whole.bytes(0, 256) as storage  write first as storage }\n"
-                 "pass read_last : compute { read whole.bytes(512, 256) as storage  read first as storage  write last as storage }\n" + between +
-                 "pass read_middle : compute { " + middle + "  read last as storage  write middle as storage }\n"
-                 "pass show : raster { color backbuffer covers }\n");
+  return plan_of(
+      "buffer whole : u32[192]\n buffer first : u32[64]\n buffer last : u32[64]\n buffer middle : u32[64] output\n"
+      "pass fill : compute { write whole as storage }\n"
+      "pass read_first : compute { read whole.bytes(0, 256) as storage  write first as storage }\n"
+      "pass read_last : compute { read whole.bytes(512, 256) as storage  read first as storage  write last as storage }\n" +
+      between + "pass read_middle : compute { " + middle +
+      "  read last as storage  write middle as storage }\n"
+      "pass show : raster { color backbuffer covers }\n");
 }
 std::vector<const BufferBarrier*> reads_of_whole(const FramePlan& frame) {
   std::vector<const BufferBarrier*> rows;
@@ -292,17 +294,19 @@ TEST(Synchronise, PartsWrittenInBetweenAreNotGathered) {
 // ---- ranges that depend on extents --------------------------------------------------------------------------------
 
 FramePlan parts_of(const std::string& passes) {
-  return plan_of(program_of_text("module test\nextent n = runtime(64) min(2) max(1000)\n extent m = runtime(8) max(16)\n"
-                                 "graph frame() {\n buffer words : u32[n]\n buffer all : u32[n] output\n" +
-                                 passes + "}\n"));
+  return plan_of(
+      program_of_text("module test\nextent n = runtime(64) min(2) max(1000)\n extent m = runtime(8) max(16)\n"
+                      "graph frame() {\n buffer words : u32[n]\n buffer all : u32[n] output\n" +
+                      passes + "}\n"));
 }
 const std::string kLeft = "pass left : compute { write words.bytes(0, n / 2 * 4) as storage }\n";
 
 TEST(Synchronise, PiecesCutByExtentsAreKeptApart) {
-  const FramePlan frame = parts_of("pass right : compute { write words.bytes(n / 2 * 4, (n - n / 2) * 4) as storage }\n"
-                                   "pass again : compute { read words.bytes(n / 2 * 4, (n - n / 2) * 4) as storage  write all as storage }\n"
-                                   "pass left  : compute { write words.bytes(0, n / 2 * 4) as storage  after again }\n"
-                                   "pass more  : compute { read words as storage  update all as storage }\n");
+  const FramePlan frame = parts_of(
+      "pass right : compute { write words.bytes(n / 2 * 4, (n - n / 2) * 4) as storage }\n"
+      "pass again : compute { read words.bytes(n / 2 * 4, (n - n / 2) * 4) as storage  write all as storage }\n"
+      "pass left  : compute { write words.bytes(0, n / 2 * 4) as storage  after again }\n"
+      "pass more  : compute { read words as storage  update all as storage }\n");
   EXPECT_EQ(order_text(frame.plan), "| right | again left | more ");
   const std::vector<int64_t> extents = {9, 1, 1, 8, 1, 1};
   std::vector<std::pair<int64_t, int64_t>> bytes;

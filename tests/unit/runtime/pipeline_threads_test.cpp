@@ -37,9 +37,9 @@ struct Driver {
   std::mutex mutex;
   std::condition_variable changed;
   uint32_t calls = 0, inside = 0, most_inside = 0, failed = 0;
-  bool wait_for_company = false;                     // the first call goes on when another has come
-  Index fails_late = kNone, fails = kNone;           // passes; the one fails when the other has
-  std::map<VkPipeline, VkPipelineLayout> layouts;    // of what was made
+  bool wait_for_company = false;                   // the first call goes on when another has come
+  Index fails_late = kNone, fails = kNone;         // passes; the one fails when the other has
+  std::map<VkPipeline, VkPipelineLayout> layouts;  // of what was made
 
   // Far longer than anything takes: a wait that ends by itself is a failure.
   template <class Condition>
@@ -49,14 +49,15 @@ struct Driver {
 };
 Driver* driver = nullptr;
 
-VkResult VKAPI_CALL create_shader(VkDevice device, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks* allocator, VkShaderModule* shader) {
+VkResult VKAPI_CALL create_shader(VkDevice device, const VkShaderModuleCreateInfo* info, const VkAllocationCallbacks* allocator,
+                                  VkShaderModule* shader) {
   const VkResult result = driver->create_shader(device, info, allocator, shader);
   driver->shaders.push_back(*shader);
   return result;
 }
 
-VkResult VKAPI_CALL create(VkDevice device, VkPipelineCache cache, uint32_t count, const VkComputePipelineCreateInfo* infos, const VkAllocationCallbacks* allocator,
-                           VkPipeline* pipelines) {
+VkResult VKAPI_CALL create(VkDevice device, VkPipelineCache cache, uint32_t count, const VkComputePipelineCreateInfo* infos,
+                           const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
   std::unique_lock lock(driver->mutex);
   ++driver->calls;
   driver->most_inside = std::max(driver->most_inside, ++driver->inside);
@@ -101,7 +102,8 @@ TEST_F(PipelineThreads, MakeOneOfEachPassAndItsLayout) {
     const Result<GraphInstance> graph = make(threads);
     ASSERT_TRUE(graph) << graph.error().message;
     EXPECT_EQ(seen.calls, kNames.size());
-    for (Index p = 0; p < kNames.size(); ++p) EXPECT_EQ(seen.layouts.at(graph->pass_info(p).pipeline), graph->pass_info(p).layout) << threads << ' ' << kNames[p];
+    for (Index p = 0; p < kNames.size(); ++p)
+      EXPECT_EQ(seen.layouts.at(graph->pass_info(p).pipeline), graph->pass_info(p).layout) << threads << ' ' << kNames[p];
   }
   EXPECT_EQ(counters.live_handles, 0u);
 }
@@ -158,9 +160,7 @@ TEST_F(PipelineThreads, OnANullDeviceAreOneUnlessAsked) {
   EXPECT_EQ(log, text);
 }
 
-TEST_F(PipelineThreads, AreAtMost64) {
-  EXPECT_EQ(make(65).error().message, "threads that make pipelines: 65 is not in 0 to 64");
-}
+TEST_F(PipelineThreads, AreAtMost64) { EXPECT_EQ(make(65).error().message, "threads that make pipelines: 65 is not in 0 to 64"); }
 
 // Which call is the k-th depends on who is faster; whichever it is, it is reported and nothing stays behind.
 TEST(PipelineThreadsFail, InEveryCallWithoutALeak) {
@@ -210,7 +210,9 @@ TEST(WorkersDeathTest, ThatTheSystemRefusesAreAnErrorOrDoneWithout) {
       thrown = true;
     }
     std::array<int, 100> done{};
-    Workers(63, Workers::Missing::done_without).run(100, [](void* data, uint32_t i) { ++static_cast<int*>(data)[i]; }, done.data());
+    Workers(63, Workers::Missing::done_without)
+        .run(
+            100, [](void* data, uint32_t i) { ++static_cast<int*>(data)[i]; }, done.data());
     std::exit(thrown && std::ranges::count(done, 1) == 100 ? 0 : 1);
   };
   EXPECT_EXIT(refused(), testing::ExitedWithCode(0), "");

@@ -175,7 +175,8 @@ TEST_F(Placement, PrologueClearsWhatTheFirstFrameReads) {
   test::Counter t = test::counter();
   ASSERT_TRUE(GraphInstance::create(device, t.plan.view(), {}));
   EXPECT_EQ(test::calls(log, "vkCmdFillBuffer"), (std::vector<std::string>{"vkCmdFillBuffer commands1 buffer2 0 18446744073709551615 7"}));
-  EXPECT_EQ(test::calls(log, "vkCmdPipelineBarrier2").at(0), "vkCmdPipelineBarrier2 commands1 [buffer2 0x900000000/0x1000->0x800/0x400000000 bytes 0+rest]");
+  EXPECT_EQ(test::calls(log, "vkCmdPipelineBarrier2").at(0),
+            "vkCmdPipelineBarrier2 commands1 [buffer2 0x900000000/0x1000->0x800/0x400000000 bytes 0+rest]");
 }
 
 TEST_F(Placement, PrologueGivesHistoryImagesTheirLayout) {

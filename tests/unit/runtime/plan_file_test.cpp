@@ -88,8 +88,9 @@ TEST(PlanFileTest, RefusesOtherFilesAndOtherVersions) {
   EXPECT_EQ(refusal("#!/bin/sh\necho"), "`x.rgplan` is refused: it is no plan file");
   std::string other = file;
   other[12] = 9;  // kPlanVersion
-  EXPECT_EQ(refusal(other), "`x.rgplan` is refused: it was written by another version of rgc (plans of version 9); write it again with the rgc that this "
-                            "runtime came with");
+  EXPECT_EQ(refusal(other),
+            "`x.rgplan` is refused: it was written by another version of rgc (plans of version 9); write it again with the rgc that this "
+            "runtime came with");
   other = file, other[16] ^= 1;  // kPlanShape
   EXPECT_NE(refusal(other).find("another version of rgc"), std::string::npos);
   EXPECT_EQ(refusal(file + "x"), "`x.rgplan` is refused: something follows its end");
@@ -191,7 +192,8 @@ TEST(PlanInterface, WhatLiesInsideMayChange) {
 }
 
 TEST(PlanInterface, WhatTheProgramBringsMayNot) {
-  const std::string what = "the plan of `test` does not fit this program: ", way_out = "; build the program again with the generated code of the plan";
+  const std::string what = "the plan of `test` does not fit this program: ",
+                    way_out = "; build the program again with the generated code of the plan";
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.name = "other"; }), "the plan is one of graph `other`; this program runs `test`");
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.extents.push_back({"froxels", 3}); }), what + "extent `froxels` is new" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.extents.clear(); }), what + "extent `view` is gone" + way_out);
@@ -199,7 +201,8 @@ TEST(PlanInterface, WhatTheProgramBringsMayNot) {
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.params[0].name = "fog"; }), what + "parameter block `fog` stands where `camera` was" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.conditions.insert(t.plan.conditions.begin(), "dark"); }),
             what + "condition `dark` stands where `moved` was" + way_out);
-  EXPECT_EQ(difference([](test::Tint& t) { t.plan.passes[t.draw].name = "draw_all"; }), what + "host pass `draw_all` stands where `draw` was" + way_out);
+  EXPECT_EQ(difference([](test::Tint& t) { t.plan.passes[t.draw].name = "draw_all"; }),
+            what + "host pass `draw_all` stands where `draw` was" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.features = kFewer; }), what + "feature `path` changed" + way_out);
   EXPECT_EQ(difference([](test::Tint& t) { t.plan.base.features = kReordered; }),
             what + "feature `path` has values of other names, or in another order" + way_out);

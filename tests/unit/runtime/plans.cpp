@@ -31,7 +31,8 @@ Counter counter() {
   p.entry.push_back({{t.state, 1}, {}, stage::compute_shader, access::shader_storage_write});
   p.barriers({},
              {buffer_barrier({t.state, 1}, stage::compute_shader, access::shader_storage_write, stage::compute_shader, access::shader_storage_read),
-              buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::shader_storage_write, stage::compute_shader, access::shader_storage_write)});
+              buffer_barrier({t.state, 0}, stage::compute_shader | stage::copy, access::shader_storage_write, stage::compute_shader,
+                             access::shader_storage_write)});
   t.step = add_shader_pass(p, "step", {t.state, 1}, {t.state, 0}, one);
   p.barriers({}, {buffer_barrier({t.state, 0}, stage::compute_shader, access::shader_storage_write, stage::copy, access::transfer_read)});
   Transfer copy;

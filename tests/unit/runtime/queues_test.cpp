@@ -55,12 +55,12 @@ TEST(Queues, EachGetsItsOwnAndABatchIsOneSubmit) {
   test::Relay t = test::relay();
   const Frames frames = run(t.plan.view(), queues(1, 1));
   // semaphore1 is the instance's own, 2 to 4 are the queues'. The first frame waits for the prologue on every queue, and for no frame before it.
-  EXPECT_EQ(frames.submits[0],
-            (Lines{"vkQueueSubmit2 queue2 wait semaphore1=1 signal semaphore4=1", "vkQueueSubmit2 queue1 wait semaphore4=1 wait semaphore1=1 signal semaphore3=1",
-                   "vkQueueSubmit2 wait semaphore3=1 wait semaphore1=1 signal semaphore2=1"}));
-  EXPECT_EQ(frames.submits[2],
-            (Lines{"vkQueueSubmit2 queue2 wait semaphore3=2 signal semaphore4=3", "vkQueueSubmit2 queue1 wait semaphore4=3 wait semaphore2=2 signal semaphore3=3",
-                   "vkQueueSubmit2 wait semaphore3=3 signal semaphore2=3"}));
+  EXPECT_EQ(frames.submits[0], (Lines{"vkQueueSubmit2 queue2 wait semaphore1=1 signal semaphore4=1",
+                                      "vkQueueSubmit2 queue1 wait semaphore4=1 wait semaphore1=1 signal semaphore3=1",
+                                      "vkQueueSubmit2 wait semaphore3=1 wait semaphore1=1 signal semaphore2=1"}));
+  EXPECT_EQ(frames.submits[2], (Lines{"vkQueueSubmit2 queue2 wait semaphore3=2 signal semaphore4=3",
+                                      "vkQueueSubmit2 queue1 wait semaphore4=3 wait semaphore2=2 signal semaphore3=3",
+                                      "vkQueueSubmit2 wait semaphore3=3 signal semaphore2=3"}));
 }
 
 TEST(Queues, FamiliesHandOverWhatTheyDoNotShare) {
@@ -76,11 +76,13 @@ TEST(Queues, FamiliesHandOverWhatTheyDoNotShare) {
 TEST(Queues, FewerRunTheBatchesInOrder) {
   test::Relay t = test::relay();
   const Frames one = run(t.plan.view(), queues(0, 0));
-  // One call with three submits: the semaphores stay, the transfer is a transition where it is acquired, what each queue does first is behind the prologue.
+  // One call with three submits: the semaphores stay, the transfer is a transition where it is acquired, what each queue does first is behind the
+  // prologue.
   EXPECT_EQ(one.submits[0], (Lines{"vkQueueSubmit2 signal semaphore4=1", "vkQueueSubmit2 wait semaphore4=1 signal semaphore3=1",
                                    "vkQueueSubmit2 wait semaphore3=1 signal semaphore2=1"}));
   ASSERT_EQ(one.barriers.size(), 6u);
-  for (const size_t first : {0u, 1u, 3u}) EXPECT_TRUE(one.barriers[first].ends_with("[memory 0x10000/0x10000->0x10000/0x18000]")) << one.barriers[first];
+  for (const size_t first : {0u, 1u, 3u})
+    EXPECT_TRUE(one.barriers[first].ends_with("[memory 0x10000/0x10000->0x10000/0x18000]")) << one.barriers[first];
   EXPECT_EQ(one.barriers[4].find("family"), std::string::npos);
   EXPECT_NE(one.barriers[4].find("layout 7->6"), std::string::npos);
   EXPECT_TRUE(test::calls(one.log, "vkCreateBuffer bytes 256 usage 0x22 shared").empty());
@@ -203,7 +205,8 @@ TEST(Queues, BrokenTablesAreRefused) {
   EXPECT_EQ(fault([](P& p, R&) { p.waits[test::kSumIsThere].stages = 0; }), "plan `test`: wait 3: no stages");
   EXPECT_EQ(fault([](P& p, R&) { p.signals[1].value = 2; }), "plan `test`: signal 1: values of a queue count 1, 2, ... in the order of its batches");
   EXPECT_EQ(fault([](P& p, R&) { p.batches[2].signal_count = 0; }), "plan `test`: wait 2: for a value that its queue does not signal");
-  EXPECT_EQ(fault([](P& p, R&) { p.batches[2].signal_count = 0, p.waits[2].queue = 1; }), "plan `test`: batch 2: the last of its queue signals nothing");
+  EXPECT_EQ(fault([](P& p, R&) { p.batches[2].signal_count = 0, p.waits[2].queue = 1; }),
+            "plan `test`: batch 2: the last of its queue signals nothing");
   EXPECT_EQ(fault([](P& p, R&) { p.batches[1].step_count += 1; }), "plan `test`: batch 2: a step of another batch");
   EXPECT_EQ(fault([](P& p, R&) { p.batches[2].step_count -= 1; }), "plan `test`: step 7: in no batch");
   EXPECT_EQ(fault([](P& p, R&) { p.steps[4] = p.steps[2]; }), "plan `test`: step 4: recorded twice");
@@ -213,7 +216,8 @@ TEST(Queues, BrokenTablesAreRefused) {
             "plan `test`: image barrier 0: stages that its queue does not have");
   EXPECT_EQ(fault([](P& p, R&) { p.image_barriers[1].src_queue = 1, p.image_barriers[1].dst_queue = 9; }),
             "plan `test`: image barrier 1: queues of the transfer");
-  EXPECT_EQ(fault([](P& p, R&) { p.image_barriers[2].new_layout = Layout::general; }), "plan `test`: batch 2: acquires what no batch before it released");
+  EXPECT_EQ(fault([](P& p, R&) { p.image_barriers[2].new_layout = Layout::general; }),
+            "plan `test`: batch 2: acquires what no batch before it released");
   EXPECT_EQ(fault([](P& p, R&) { p.image_barriers[2].src_queue = p.image_barriers[2].dst_queue = kNone; }),
             "plan `test`: batch 1: releases what no batch after it acquires");
   EXPECT_EQ(fault([](P& p, R& t) { p.resources[t.picture].concurrent = true; }), "plan `test`: batch 1: transfers a resource that all queues share");

@@ -36,10 +36,11 @@ TEST(SpectrumProfile, IsWrittenAsRgcReadsIt) {
   SpectrumProfile profile(kernels_of<lights>());
   const uint32_t masks[] = {0, 3, 3, 4};
   profile.add_scene("yard", 2, masks);
-  const std::string head = "{\n \"schema\": \"rgc-spectrum-1\",\n \"spectrum\": \"lights\",\n \"features\": [\"red\", \"\\\"quoted\\\"\", \"blue\"],\n"
-                           " \"scenes\": [\n  {\"name\": \"yard\", \"weight\": 2.000, \"masks\": [\n"
-                           "   {\"features\": [], \"tiles\": 1},\n   {\"features\": [\"red\", \"\\\"quoted\\\"\"], \"tiles\": 2},\n"
-                           "   {\"features\": [\"blue\"], \"tiles\": 1}\n  ]}\n ]";
+  const std::string head =
+      "{\n \"schema\": \"rgc-spectrum-1\",\n \"spectrum\": \"lights\",\n \"features\": [\"red\", \"\\\"quoted\\\"\", \"blue\"],\n"
+      " \"scenes\": [\n  {\"name\": \"yard\", \"weight\": 2.000, \"masks\": [\n"
+      "   {\"features\": [], \"tiles\": 1},\n   {\"features\": [\"red\", \"\\\"quoted\\\"\"], \"tiles\": 2},\n"
+      "   {\"features\": [\"blue\"], \"tiles\": 1}\n  ]}\n ]";
   EXPECT_EQ(profile.json(), head + "\n}\n");
   profile.add_time(2, 1, 5.0, 100);
   EXPECT_EQ(profile.json(), head + ",\n \"costs\": [\n  {\"features\": [\"red\", \"\\\"quoted\\\"\", \"blue\"], \"ms\": 50.000000}\n ]\n}\n");

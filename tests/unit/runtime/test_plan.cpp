@@ -63,8 +63,8 @@ Plan TestPlan::view() {
   plan.groups = groups, plan.memory_barriers = memory_barriers, plan.image_barriers = image_barriers, plan.buffer_barriers = buffer_barriers;
   plan.entry = entry, plan.acquires = acquires, plan.releases = releases, plan.alias_clocks = alias_clocks, plan.passes = passes,
   plan.accesses = accesses;
-  plan.renderings = renderings, plan.attachments = attachments, plan.vertex_buffers = vertex_buffers, plan.shaders = shaders, plan.pipelines = pipelines,
-  plan.pipeline_shaders = pipeline_shaders, plan.sample_locations = sample_locations;
+  plan.renderings = renderings, plan.attachments = attachments, plan.vertex_buffers = vertex_buffers, plan.shaders = shaders,
+  plan.pipelines = pipelines, plan.pipeline_shaders = pipeline_shaders, plan.sample_locations = sample_locations;
   plan.bindings = bindings, plan.samplers = samplers, plan.params = params, plan.pass_params = pass_params, plan.transfers = transfers;
   plan.mip_limits = mip_limits, plan.conditions = conditions, plan.waits = waits, plan.signals = signals;
   return plan;

@@ -59,7 +59,8 @@ Flags uses_of(const std::string& statement) {
                              "uint through(uint at) { if (at > 3u) return b[at]; return 7u; }\n"
                              "void main() { uint v = gl_WorkGroupID.x; " +
                              statement + " }\n"));
-  const ModuleUse use = find_uses(words).descriptors[{1, 0}], image = find_uses(words).descriptors[{1, 2}], sampled = find_uses(words).descriptors[{1, 3}];
+  const ModuleUse use = find_uses(words).descriptors[{1, 0}], image = find_uses(words).descriptors[{1, 2}],
+                  sampled = find_uses(words).descriptors[{1, 3}];
   return {use.touched || image.touched || sampled.touched, use.reads || image.reads || sampled.reads, use.writes || image.writes,
           use.atomics || image.atomics};
 }

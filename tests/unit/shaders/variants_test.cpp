@@ -190,8 +190,9 @@ TEST(Statistics, CountsAndLiveScalars) {
 
 // Kernels of a spectrum are only put together in a hurry, and are what the validator takes; a whole build leaves out what they do not need.
 TEST_F(Variants, KernelsAreValidInAHurry) {
-  pass_with({}, "float shade(bool on) { return on ? sin(float(gl_LocalInvocationIndex)) : 0.5; }\n"
-                "void main() { vec4 c = vec4(shade(red)); if (blue) c.b = cos(c.r); imageStore(hdr, ivec2(0), c); }\n")
+  pass_with({},
+            "float shade(bool on) { return on ? sin(float(gl_LocalInvocationIndex)) : 0.5; }\n"
+            "void main() { vec4 c = vec4(shade(red)); if (blue) c.b = cos(c.r); imageStore(hdr, ivec2(0), c); }\n")
       .features = {{"red", {}, 0, {}, span("work")}, {"blue", {}, 0, {}, span("work")}};
   ShaderOptions hurried;
   hurried.effort = ShaderEffort::preview;

@@ -25,7 +25,9 @@ std::string violations(const std::vector<File>& files, const Allowed& allowed) {
   return text;
 }
 
-bool is_shared(const std::string& include) { return is_any(include, {"runtime/plan.h", "runtime/plan_fields.h", "runtime/packing.h", "runtime/alias.h"}); }
+bool is_shared(const std::string& include) {
+  return is_any(include, {"runtime/plan.h", "runtime/plan_fields.h", "runtime/packing.h", "runtime/alias.h"});
+}
 
 std::vector<File> compiler_files(bool verify) {
   std::vector<File> files = cpp_below("compiler");

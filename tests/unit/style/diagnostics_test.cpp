@@ -81,7 +81,8 @@ std::string page() {
       "# Diagnostics\n\nEvery code, with its message; `{0}`, `{1}` stand for what was found. Codes are stable and never reused. `rgc explain CODE` "
       "prints one.\n"
       "Tests under `tests/` show each with an input that causes it.\n\n"
-      "RG00 files and imports, RG01 text, RG02 names and types, RG03 meaning of passes and accesses, RG04 shaders (from RG0480 on passes and resources "
+      "RG00 files and imports, RG01 text, RG02 names and types, RG03 meaning of passes and accesses, RG04 shaders (from RG0480 on passes and "
+      "resources "
       "again), RG05 judged facts, RG06 the "
       "command line\n"
       "and the world, RG07 variants.\n\n| code | severity | name | message |\n|---|---|---|---|\n";

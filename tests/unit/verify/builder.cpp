@@ -190,7 +190,8 @@ dsl::PassId Builder::pass(dsl::PassKind kind, const std::string& name, const std
     if (is_attachment_role(use.role)) range.mips = 1;
     plan.accesses.push_back({{use.resource.value, use.age}, range, bytes, kEveryStage, kEveryAccess, layout, use.mode != dsl::Mode::read});
     if (!is_attachment_role(use.role) || kind != dsl::PassKind::raster) continue;
-    const Attachment attachment{{use.resource.value, use.age}, range, 0, 0, rg::Format::undefined, layout, use.load, use.store, {}, {}, {}, Layout::undefined, 0};
+    const Attachment attachment{
+        {use.resource.value, use.age}, range, 0, 0, rg::Format::undefined, layout, use.load, use.store, {}, {}, {}, Layout::undefined, 0};
     const uint32_t layers = use.range.layers == dsl::kAll ? source(use.resource).layers - use.range.layer : use.range.layers;
     rendering.layers = rendering.color_count + others.size() == 0 ? layers : std::min(rendering.layers, layers);
     if (use.role == dsl::Role::color)

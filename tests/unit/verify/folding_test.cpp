@@ -16,8 +16,10 @@ namespace {
 constexpr dsl::GraphId kFrame{size_t{0}};
 
 dsl::Program read_program(const std::string& body) {
-  const std::string text = "module test\nextent view = runtime(64, 64) max(128, 128)\ncondition sometimes\n"
-                           "graph frame(surface backbuffer: rgba8 view after copy_src) {\n" + body + "}\n";
+  const std::string text =
+      "module test\nextent view = runtime(64, 64) max(128, 128)\ncondition sometimes\n"
+      "graph frame(surface backbuffer: rgba8 view after copy_src) {\n" +
+      body + "}\n";
   dsl::Diagnostics diagnostics;
   const auto read = [&](const std::string&, std::string&) { return std::optional<std::string>(text); };
   dsl::FrontEndResult result = dsl::load_program("test.rg", read, diagnostics);
@@ -25,10 +27,12 @@ dsl::Program read_program(const std::string& body) {
   return std::move(result.program);
 }
 
-const std::string kImages = "image many : rgba8 view samples 4\n image one : rgba8 view\n image side : rgba8 view\n"
-                            "pass old : raster { color one clear 1  draw host {} }\n pass seen : compute { read one as sampled  write side as storage }\n";
+const std::string kImages =
+    "image many : rgba8 view samples 4\n image one : rgba8 view\n image side : rgba8 view\n"
+    "pass old : raster { color one clear 1  draw host {} }\n pass seen : compute { read one as sampled  write side as storage }\n";
 const std::string kWipe = "pass wipe : transfer { clear many 0.5 }\n", kFlatten = "pass flatten : transfer { resolve many -> one }\n";
-const std::string kShow = "pass show : raster { read one as sampled in fragment  read side as sampled in fragment  color backbuffer covers  draw host {} }\n";
+const std::string kShow =
+    "pass show : raster { read one as sampled in fragment  read side as sampled in fragment  color backbuffer covers  draw host {} }\n";
 std::string draw(const std::string& rest) { return "pass draw : raster { color many" + rest + "  draw host {} }\n"; }
 
 std::string hazards(const dsl::Program& apart, const dsl::Program& folded) {
@@ -51,9 +55,13 @@ std::string between(const std::string& apart, const std::string& folded) { retur
 TEST(Folding, WhatMeansTheSameIsAccepted) {
   EXPECT_EQ(between(kWipe + draw("") + kFlatten, draw(" clear 0.5  resolve many -> one")), "");
   EXPECT_EQ(between(kWipe + draw("") + kFlatten, draw(" clear 0.5") + kFlatten), "");
-  EXPECT_EQ(between("if host sometimes { " + kWipe + draw("") + kFlatten + "}\n", "if host sometimes { " + draw(" clear 0.5  resolve many -> one") + "}\n"), "");
-  EXPECT_EQ(between("image maps : d32f_s8 64x64\n pass wipe : transfer { clear maps (1, 0) }\n pass solid : raster { depth maps  stencil maps  draw host {} }\n",
-                    "image maps : d32f_s8 64x64\n pass solid : raster { depth maps clear 1.0  stencil maps clear 0  draw host {} }\n"), "");
+  EXPECT_EQ(
+      between("if host sometimes { " + kWipe + draw("") + kFlatten + "}\n", "if host sometimes { " + draw(" clear 0.5  resolve many -> one") + "}\n"),
+      "");
+  EXPECT_EQ(between("image maps : d32f_s8 64x64\n pass wipe : transfer { clear maps (1, 0) }\n pass solid : raster { depth maps  stencil maps  draw "
+                    "host {} }\n",
+                    "image maps : d32f_s8 64x64\n pass solid : raster { depth maps clear 1.0  stencil maps clear 0  draw host {} }\n"),
+            "");
 }
 
 struct Wrong {
@@ -62,7 +70,8 @@ struct Wrong {
 TEST(Folding, WhatDoesNotIsRejected) {
   const std::string both = kWipe + draw("") + kFlatten, late = "pass late : raster { color many  draw host {} }\n";
   const std::string dots = "pass dots : raster { color maps  draw host {} }\n", paint = "pass paint : raster { color maps";
-  const std::string layers = "image maps : rgba8 64x64 layers 2 persistent init clear 0\n", layer = "pass wipe : transfer { clear maps.layer(0) 1 }\n";
+  const std::string layers = "image maps : rgba8 64x64 layers 2 persistent init clear 0\n",
+                    layer = "pass wipe : transfer { clear maps.layer(0) 1 }\n";
   const Wrong rows[] = {
       {both, draw(" clear 0.25  resolve many -> one"), "wrong version many: `draw` sees a clear in `many`, and a clear as written\n"},
       {both, draw(" clear 0.5"), "wrong version one: `show` sees `old` in `one`, and a resolve of `draw` as written\n"},
@@ -76,7 +85,8 @@ TEST(Folding, WhatDoesNotIsRejected) {
       {layers + "pass wipe : transfer { clear maps 1 }\n pass paint : raster { color maps.layer(0)  draw host {} }\n",
        layers + "pass paint : raster { color maps.layer(0) clear 1  draw host {} }\n",
        "wrong version maps: `maps` ends as what was there before the frame, and as a clear as written\n"},
-      {layers + layer + "pass paint : raster { color maps.layer(1)  draw host {} }\n", layers + "pass paint : raster { color maps.layer(1) clear 1  draw host {} }\n",
+      {layers + layer + "pass paint : raster { color maps.layer(1)  draw host {} }\n",
+       layers + "pass paint : raster { color maps.layer(1) clear 1  draw host {} }\n",
        "wrong version maps: `paint` sees a clear in `maps`, and what was there before the frame as written\n"
        "wrong version maps: `maps` ends as what was there before the frame, and as a clear as written\n"},
       {layers + "pass wipe : transfer { clear maps 1 }\n if host sometimes { pass paint : raster { color maps  draw host {} } }\n",
@@ -89,9 +99,11 @@ TEST(Folding, WhatDoesNotIsRejected) {
        "missing pass : `wipe` is gone, though it is to be kept\n"},
       {kWipe + draw("") + "pass flatten : transfer { resolve many -> one  after seen }\n", draw(" clear 0.5  resolve many -> one"),
        "order : `flatten` is gone, though it comes `after` `seen`\n"},
-      {both, "pass draw : raster { color many clear 0.5  resolve many -> one  draw host {}  after seen }\n", "order : `draw` comes after other passes than as written\n"},
+      {both, "pass draw : raster { color many clear 0.5  resolve many -> one  draw host {}  after seen }\n",
+       "order : `draw` comes after other passes than as written\n"},
       {"pass make : compute { write side as storage }\n" + both, draw(" clear 0.5  resolve many -> one"),
-       "missing pass : `make` is gone, and does more than to clear and resolve\nwrong version side: `show` sees `seen` in `side`, and `make` as written\n"},
+       "missing pass : `make` is gone, and does more than to clear and resolve\nwrong version side: `show` sees `seen` in `side`, and `make` as "
+       "written\n"},
   };
   for (const Wrong& row : rows) EXPECT_EQ(between(row.apart, row.folded), row.finding) << row.apart << "becomes\n" << row.folded;
 }
@@ -108,11 +120,15 @@ TEST(Folding, AttachmentsThatCannotAreRejected) {
     return *std::find_if(graph.passes.begin(), graph.passes.end(), [](const dsl::Pass& pass) { return pass.name == "draw"; });
   };
   EXPECT_EQ(edited([](dsl::Graph&) {}), "");
-  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).accesses[0].view = dsl::Format::rgba8_srgb; }).find("uses `many` in another way"), std::string::npos);
+  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).accesses[0].view = dsl::Format::rgba8_srgb; }).find("uses `many` in another way"),
+            std::string::npos);
   EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).accesses[1].range.mip = 1; }).find("cannot resolve `many` to `one`"), std::string::npos);
-  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).accesses[0].mode = dsl::Mode::update; }).find("uses `many` in another way"), std::string::npos);
-  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).conditions.push_back(dsl::ConditionId{size_t{0}}); }).find("is another pass"), std::string::npos);
-  EXPECT_NE(edited([&](dsl::Graph& graph) { std::swap(graph.passes.rows.back(), *(graph.passes.rows.end() - 2)); }).find("is not where it was"), std::string::npos);
+  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).accesses[0].mode = dsl::Mode::update; }).find("uses `many` in another way"),
+            std::string::npos);
+  EXPECT_NE(edited([&](dsl::Graph& graph) { pass_draw(graph).conditions.push_back(dsl::ConditionId{size_t{0}}); }).find("is another pass"),
+            std::string::npos);
+  EXPECT_NE(edited([&](dsl::Graph& graph) { std::swap(graph.passes.rows.back(), *(graph.passes.rows.end() - 2)); }).find("is not where it was"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -59,7 +59,8 @@ std::string findings_between(const dsl::Program& apart, const dsl::Program& fold
 dsl::Program with_other_clear(dsl::Program program, const compiler::Fold& fold) {
   for (dsl::Pass& pass : program.graphs.rows[0].passes)
     for (dsl::Access& access : pass.accesses)
-      if (pass.name == fold.parts[0].into && access.clear && program.graphs.rows[0].resources[access.resource].name == fold.parts[0].image) access.clear->f[0] += 1;
+      if (pass.name == fold.parts[0].into && access.clear && program.graphs.rows[0].resources[access.resource].name == fold.parts[0].image)
+        access.clear->f[0] += 1;
   return program;
 }
 
@@ -105,7 +106,8 @@ TEST(RandomGraphs, RenderingsOfSeveralPassesAreProved) {
   EXPECT_GT(merged, 100u);
 }
 
-// Renderings that clear and resolve in place of passes: the program means the same, its plan is right, and a clear of something else would be noticed.
+// Renderings that clear and resolve in place of passes: the program means the same, its plan is right, and a clear of something else would be
+// noticed.
 TEST(RandomGraphs, FoldedProgramsAreProved) {
   size_t clears = 0, resolves = 0, refused = 0;
   for (uint64_t seed = 0; seed < (is_long() ? 2000u : 160u); ++seed) {
@@ -202,7 +204,8 @@ TEST(RandomGraphs, PlansAreProvedAtAThousandSizes) {
 }
 
 // Removing any one stage bit, access bit, barrier, wait or signal of a plan without redundant atoms breaks it; so does any other damage, but for
-// classes in which the abstract machine sees no difference either. Many graphs show more than all damage of a few: of each every sixth, with RGC_LONG all.
+// classes in which the abstract machine sees no difference either. Many graphs show more than all damage of a few: of each every sixth, with RGC_LONG
+// all.
 TEST(RandomGraphs, EveryDamageIsNoticed) {
   size_t mutants = 0, killed = 0, plans = 0, equivalent = 0;
   const size_t every = is_long() ? 1 : 6;

@@ -152,7 +152,8 @@ TEST(Work, TargetsAsDeclared) {
     return text;
   };
   EXPECT_EQ(found([](Builder&) {}), "");
-  EXPECT_EQ(found([](Builder& b) { b.plan.attachments[0].view_format = static_cast<rg::Format>(37); }), "`w` and `x`: the attachment is seen otherwise than declared");
+  EXPECT_EQ(found([](Builder& b) { b.plan.attachments[0].view_format = static_cast<rg::Format>(37); }),
+            "`w` and `x`: the attachment is seen otherwise than declared");
   EXPECT_EQ(found([](Builder& b) { b.plan.attachments[0].slices = 1; }), "`w` and `x`: the attachment is seen otherwise than declared");
   EXPECT_EQ(found([](Builder& b) { b.plan.renderings[0].layers = 2; }), "`w`: the rendering has another number of layers than declared");
   EXPECT_EQ(found([](Builder& b) { b.plan.renderings[0].view_mask = 1; }), "`w`: the rendering has other views than declared");
