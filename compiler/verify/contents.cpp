@@ -38,9 +38,16 @@ bool is_selected(const Input& input, const dsl::Guard& guard) {
   });
 }
 
+// What a location holds: what the last writer left that does not commute with its neighbours, and what commuting ones have added since.
+struct Content {
+  Version base = kPoison, added = 0;
+  Content(Version version = kPoison) : base(version) {}
+  Version version() const { return base + added; }
+};
+
 // One of the two executions: what the memory of all copies holds.
 struct Memory {
-  std::vector<Version> versions;  // by cell of the model
+  std::vector<Content> contents;  // by cell of the model
 };
 
 struct Comparison {
@@ -83,26 +90,28 @@ std::string name_of(const Comparison& c, Version version) {
 }
 
 // What the write leaves, given what was there.
-Version written(const Comparison& c, uint32_t pass, const Use& use, Version old) {
+Content written(const Comparison& c, uint32_t pass, const Use& use, Content old) {
   const Version own = version_of_pass(pass, c.frame);
-  return use.commutes && old != kPoison ? old + own : own;
+  if (!use.commutes) return own;
+  old.added += own;
+  return old;
 }
 
 // ---- program order ----------------------------------------------------------------------------------------------
 
 // What each access of each pass finds, by pass, access and cell of the use.
-using Found = std::vector<std::vector<std::vector<Version>>>;
+using Found = std::vector<std::vector<std::vector<Content>>>;
 
 void run_program_pass(Comparison& c, uint32_t pass, Memory& memory, Found& found) {
   const std::vector<Use>& uses = c.program_uses[pass];
   for (size_t u = 0; u < uses.size(); ++u)
     for (size_t i = 0; i < uses[u].cells.size(); ++i)
-      found[pass][u][i] = memory.versions[c.physical(uses[u].resource, uses[u].age, uses[u].cells[i])];
+      found[pass][u][i] = memory.contents[c.physical(uses[u].resource, uses[u].age, uses[u].cells[i])];
   for (const Use& use : uses)
     if (use.writes)
       for (const uint32_t cell : use.cells) {
-        Version& version = memory.versions[c.physical(use.resource, use.age, cell)];
-        version = written(c, pass, use, version);
+        Content& content = memory.contents[c.physical(use.resource, use.age, cell)];
+        content = written(c, pass, use, content);
       }
 }
 
@@ -112,7 +121,7 @@ void begin_program_frame(Comparison& c, Memory& memory) {
     const ResourceNode& node = c.model.resources[r];
     if (c.model.resource(r).lifetime != dsl::Lifetime::history) continue;
     for (uint32_t cell = 0; cell < node.partition.cell_count(); ++cell)
-      memory.versions[c.physical(r, 0, cell)] = memory.versions[c.physical(r, 1, cell)];
+      memory.contents[c.physical(r, 0, cell)] = memory.contents[c.physical(r, 1, cell)];
   }
 }
 
@@ -121,7 +130,7 @@ void begin_frame(Comparison& c, Memory& memory) {
   for (uint32_t r = 0; r < c.model.resources.size(); ++r) {
     const dsl::Resource& resource = c.model.resource(r);
     for (uint32_t cell = 0; cell < c.model.resources[r].partition.cell_count(); ++cell) {
-      Version& now = memory.versions[c.physical(r, 0, cell)];
+      Content& now = memory.contents[c.physical(r, 0, cell)];
       if (resource.lifetime == dsl::Lifetime::transient || resource.lifetime == dsl::Lifetime::readback) now = kPoison;
       if (resource.lifetime != dsl::Lifetime::imported) continue;
       now = resource.before.role == dsl::Role::undefined ? kPoison : version_of_import(r, c.frame);
@@ -130,14 +139,14 @@ void begin_frame(Comparison& c, Memory& memory) {
 }
 
 void begin_life(Comparison& c, Memory& memory) {
-  memory.versions.assign(c.model.cell_count, kPoison);
+  memory.contents.assign(c.model.cell_count, kPoison);
   for (uint32_t r = 0; r < c.model.resources.size(); ++r) {
     const dsl::Resource& resource = c.model.resource(r);
     const bool kept = resource.lifetime == dsl::Lifetime::history || resource.lifetime == dsl::Lifetime::persistent;
     if (!kept || resource.init == dsl::InitKind::none) continue;
     const Version initial = version_of_start(r);
     const ResourceNode& node = c.model.resources[r];
-    std::fill_n(memory.versions.begin() + node.first_cell, node.copies * node.partition.cell_count(), initial);
+    std::fill_n(memory.contents.begin() + node.first_cell, node.copies * node.partition.cell_count(), initial);
   }
 }
 
@@ -160,39 +169,41 @@ void report_load(Comparison& c, uint32_t plan_pass, const Use& use, const std::s
                 "`" + pass + "` " + text + " " + c.model.place(use.resource, use.cells.empty() ? 0 : use.cells.front())});
 }
 
-void compare_read(Comparison& c, const PassNode& node, const Use& use, size_t index, Version wanted, Version actual) {
+void compare_read(Comparison& c, const PassNode& node, const Use& use, size_t index, const Content& wanted, const Content& actual) {
   const uint32_t cell = use.cells[index];
   if (use.attachment && node.first_in_rendering && (use.load == LoadOp::clear) != use.clears)
     report_load(c, node.plan_pass, use, use.clears ? "does not clear" : "clears");
-  if (use.attachment && node.first_in_rendering && use.load == LoadOp::load && actual == kPoison && !use.clears)
+  if (use.attachment && node.first_in_rendering && use.load == LoadOp::load && actual.version() == kPoison && !use.clears)
     report_load(c, node.plan_pass, use, "loads undefined contents of");
-  if (!use.uses_contents || wanted == kPoison) return;
-  const Version seen = loads(use, node) ? actual : kPoison;
-  // Among commuting writers only the sum counts, which their reader finds; but they need something to add to.
-  if (use.commutes ? seen == kPoison : seen != wanted) report_read(c, node.plan_pass, use, cell, wanted, seen);
+  if (!use.uses_contents || wanted.version() == kPoison) return;
+  const Content seen = loads(use, node) ? actual : Content();
+  // Among commuting writers only the sum counts, which their reader finds; but they have to add to the same.
+  const bool same = use.commutes ? seen.version() != kPoison && seen.base == wanted.base : seen.version() == wanted.version();
+  if (same) return;
+  report_read(c, node.plan_pass, use, cell, use.commutes ? wanted.base : wanted.version(), use.commutes ? seen.base : seen.version());
 }
 
 void run_plan_pass(Comparison& c, const PassNode& node, Memory& memory, const Found& found) {
-  const auto at = [&](const Use& use, size_t i) -> Version& { return memory.versions[c.physical(use.resource, use.age, use.cells[i])]; };
-  std::vector<std::pair<uint32_t, Version>> results;
+  const auto at = [&](const Use& use, size_t i) -> Content& { return memory.contents[c.physical(use.resource, use.age, use.cells[i])]; };
+  std::vector<std::pair<uint32_t, Content>> results;
   for (const Use& use : node.uses)
     for (size_t i = 0; i < use.cells.size(); ++i) {
       if (!c.exists(use.resource, use.cells[i])) continue;
-      const Version actual = at(use, i);
+      const Content actual = at(use, i);
       compare_read(c, node, use, i, found[node.program_pass][use.access][i], actual);
       const bool drops = use.attachment && node.last_in_rendering && use.store != StoreOp::store;
-      Version next = use.writes ? written(c, node.program_pass, use, actual) : actual;
+      Content next = use.writes ? written(c, node.program_pass, use, actual) : actual;
       if (drops && (use.writes || use.store == StoreOp::dont_care)) next = kPoison;
       if (use.writes || drops) results.emplace_back(c.physical(use.resource, use.age, use.cells[i]), next);
     }
-  for (const auto& [cell, version] : results) memory.versions[cell] = version;
+  for (const auto& [cell, content] : results) memory.contents[cell] = content;
 }
 
 void run_plan_group(Comparison& c, const GroupNode& group, Memory& memory) {
   for (const uint32_t id : group.scopes) {
     const Scope& scope = c.model.scopes[id];
     if (scope.kind != ScopeKind::image || scope.old_layout != Layout::undefined) continue;
-    for (const uint32_t cell : scope.cells) memory.versions[c.physical(scope.resource, scope.age, cell)] = kPoison;
+    for (const uint32_t cell : scope.cells) memory.contents[c.physical(scope.resource, scope.age, cell)] = kPoison;
   }
 }
 
@@ -210,7 +221,7 @@ void compare_end(Comparison& c, const Memory& program, const Memory& plan) {
     for (uint32_t age = 0; age < node.copies; ++age)
       for (uint32_t cell = 0; cell < node.partition.cell_count(); ++cell) {
         const uint32_t at = c.physical(r, age, cell);
-        const Version wanted = program.versions[at], actual = plan.versions[at];
+        const Version wanted = program.contents[at].version(), actual = plan.contents[at].version();
         if (wanted == actual || wanted == kPoison || !c.exists(r, cell)) continue;
         const Hazard hazard = actual == kPoison ? Hazard::lost_contents : Hazard::wrong_version;
         c.report.add({hazard, resource.name, "", "",

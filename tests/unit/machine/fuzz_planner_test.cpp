@@ -135,18 +135,22 @@ TEST(PlannerFuzz, ShrunkProgramsStayRight) {
 // Ranges that depend on extents: what could go is found where they lie alike at all extents, and not called so where others may need it.
 TEST(Redundancy, IsJudgedOfRangesThatLieAlikeAtAllExtents) {
   const auto with_a_stage_too_many = [](const std::string& begin) {
-    const auto program = load("module m\nextent n = runtime(64) min(2) max(1000)\nextent m = runtime(8) max(16)\ngraph frame() {\n"
-                              " buffer words : u32[n]\n buffer all : u32[n] output\n"
-                              " pass left : compute { write words.bytes(0, n / 2 * 4) as storage }\n"
-                              " pass right : compute { write words.bytes(" + begin + ", 4) as storage }\n"
-                              " pass more : compute { read words.bytes(0, n / 2 * 4) as storage  write all as storage }\n}\n");
+    const auto program = load(
+        "module m\nextent n = runtime(64) min(2) max(1000)\nextent m = runtime(8) max(16)\ngraph frame() {\n"
+        " buffer words : u32[n]\n buffer all : u32[n] output\n"
+        " pass left : compute { write words.bytes(0, n / 2 * 4) as storage }\n"
+        " pass right : compute { write words.bytes(" +
+        begin +
+        ", 4) as storage }\n"
+        " pass more : compute { read words.bytes(0, n / 2 * 4) as storage  write all as storage }\n}\n");
     EXPECT_TRUE(program);
     PlanData plan = compiler::plan_frame(*program, kGraph, {}, {}).plan;
     verify::VerifyOptions options;
     options.irredundancy = true;
     const auto findings = [&] { return verify::verify(*program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, options); };
     EXPECT_TRUE(findings().empty());
-    const auto reads = std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), [](const BufferBarrier& b) { return b.src_accesses != 0; });
+    const auto reads =
+        std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), [](const BufferBarrier& b) { return b.src_accesses != 0; });
     if (reads == plan.buffer_barriers.end()) return ADD_FAILURE() << "no barrier", size_t{0};
     reads->dst_stages |= stage::vertex_shader;
     return findings().size();
@@ -155,7 +159,8 @@ TEST(Redundancy, IsJudgedOfRangesThatLieAlikeAtAllExtents) {
   EXPECT_EQ(with_a_stage_too_many("m * 4"), 0u);
 }
 
-// Writers that commute do not wait for each other, so what one of them reads orders only itself: a plan that orders nothing else before the other is wrong.
+// Writers that commute do not wait for each other, so what one of them reads orders only itself: a plan that orders nothing else before the other is
+// wrong.
 TEST(Commuting, ReadersOrderOnlyThemselves) {
   const auto program = load(
       "module m\ngraph frame(surface backbuffer: rgba8 64x64) {\n buffer words : u32[64]\n pass zero : transfer { fill words 0 }\n"
@@ -166,11 +171,34 @@ TEST(Commuting, ReadersOrderOnlyThemselves) {
   PlanData plan = compiler::plan_frame(*program, kGraph, {}, {}).plan;
   const auto findings = [&] { return verify::verify(*program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, {}); };
   EXPECT_TRUE(findings().empty());
-  const auto filled = std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(), [](const BufferBarrier& b) { return b.src_accesses == access::transfer_write; });
+  const auto filled = std::find_if(plan.buffer_barriers.begin(), plan.buffer_barriers.end(),
+                                   [](const BufferBarrier& b) { return b.src_accesses == access::transfer_write; });
   ASSERT_NE(filled, plan.buffer_barriers.end());
   ASSERT_NE(filled->dst_stages & stage::fragment_shader, 0u);
   filled->dst_stages &= ~stage::fragment_shader;
   EXPECT_FALSE(findings().empty());
+}
+
+// What an atomic returns depends on what it adds to, be the sum read or not: `append` before `zero` gives out other places of the list.
+TEST(Commuting, WritersAddToWhatTheProgramSays) {
+  const auto program = load(
+      "module m\ngraph frame() {\n buffer counter : u32[4]\n buffer list : u32[64] output\n buffer seen : u32[4] output\n"
+      " pass old : compute { write counter as storage }\n pass look : compute { read counter as storage  write seen as storage }\n"
+      " pass zero : compute { write counter as storage }\n pass append : compute { atomic counter as storage  write list as storage }\n}\n");
+  ASSERT_TRUE(program);
+  PlanData plan = compiler::plan_frame(*program, kGraph, {}, {}).plan;
+  const auto findings = [&] { return verify::verify(*program, kGraph, {}, plan.view(), plan.program_pass, plan.program_resource, {}); };
+  EXPECT_TRUE(findings().empty());
+  const auto step_of = [&](const char* name) {
+    return std::find_if(plan.steps.begin(), plan.steps.end(),
+                        [&](const Step& step) { return step.kind == StepKind::pass && plan.passes[step.index].name == name; });
+  };
+  std::iter_swap(step_of("zero"), step_of("append"));
+  const auto found = findings();
+  const auto wrong =
+      std::find_if(found.begin(), found.end(), [](const verify::Finding& finding) { return finding.hazard == verify::Hazard::wrong_version; });
+  ASSERT_NE(wrong, found.end());
+  EXPECT_EQ(wrong->text, "`append` reads `counter`: it finds what `old` wrote in frame 0, program order gives what `zero` wrote in frame 0");
 }
 
 TEST(PlannerFuzz, ShrinkingKeepsTheFailure) {
