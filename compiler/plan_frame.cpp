@@ -218,7 +218,7 @@ struct Placed {
 Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
   Placed placed{watch.time("emit_plan", [&] { return emit_plan(parts); }), {}};
   placed.memory = watch.time("plan_memory", [&] {
-    find_alias_clocks(placed.plan, parts.sync.over_at);
+    find_alias_clocks(placed.plan);
     return place_transients(placed.plan, parts.options.effort, parts.options.reasons);
   });
   return placed;
