@@ -224,21 +224,24 @@ void find_alias_clocks(PlanData& plan, const OverAt& over_at) {
   Finder(plan, over_at).run([](size_t, const Uncovered&) {});
 }
 
-std::vector<Stages> silent_stages(const PlanData& made) {
+std::vector<MemorySignal> memory_signals(const PlanData& made) {
   // Every signal names what its queue has released, so that clocks count as far as they can ...
   PlanData plan = made;
+  const OverAt nothing;
   const auto signal_of = [&](size_t b) -> Stages& { return plan.signals[plan.batches[b].first_signal].stages; };
   plan.alias_clocks.clear();
-  Finder most(plan, {});
+  Finder most(plan, nothing);
   most.run([&](size_t b, const Uncovered& uncovered) { signal_of(b) |= uncovered.missing(); });
   if (plan.alias_clocks == made.alias_clocks) return {};
   // ... and then only those that clocks rest on: a release is named by the last signal that can, which does the most others the same service.
   plan.signals = made.signals, plan.alias_clocks.clear();
-  std::vector<Stages> silent(plan.batches.size());
-  Finder(plan, {}).run([&](size_t b, const Uncovered& uncovered) {
-    if (most.is_relied_on(b)) signal_of(b) |= silent[b] = uncovered.missing();
+  std::vector<MemorySignal> result(plan.batches.size());
+  Finder(plan, nothing).run([&](size_t b, const Uncovered& uncovered) {
+    if (!most.is_relied_on(b)) return;
+    result[b] = {true, uncovered.missing()};
+    signal_of(b) |= result[b].stages;
   });
-  return silent;
+  return result;
 }
 
 }  // namespace rg::compiler

@@ -8,8 +8,8 @@
 // meet in the same way. Nothing is added to the plan but what it implies already.
 //
 // Signals name what their waiters need, and say nothing of what ran before in other stages: memory that it used last is then not known to be free. So
-// silent_stages() says what they would have to name besides, and a plan made with that is taken where it saves memory. A signal comes after its batch
-// in the cost model anyway, and no wait is added.
+// memory_signals() says what they would have to name besides, and a plan made with that is taken where it saves memory. A signal comes after its
+// batch in the cost model anyway, and no wait is added.
 #pragma once
 
 #include "compiler/plan_data.h"
@@ -20,11 +20,12 @@ namespace rg::compiler {
 // Fills Release::point, Acquire::queue, point and first_clock, and alias_clocks. Pre-condition: steps, batches, waits, signals, groups, passes and
 // accesses are complete; releases name resource, queue and scopes, acquires resource, group and scopes.
 // O(steps + accesses + (signals + waits + acquires) * queues * different stage masks + releases * log).
-// `over_at`: what else is known to come before signals.
+// `over_at`: what signals are known to come after without naming it.
 void find_alias_clocks(PlanData& plan, const OverAt& over_at = {});
 
-// By batch: stages of releases that its signal would have to name for clocks to count further, as few as can be on two queues (points that stab
-// intervals from a release to the signal that a clock rests on). Empty if no clock would. Cost as above.
-std::vector<Stages> silent_stages(const PlanData& plan);
+// By batch: on which signals clocks count if all of them name what their queues have released, and the stages that these have to name for it, as few
+// as can be on two queues (points that stab intervals from a release to the signal that a clock rests on). Empty if no clock counts further for it.
+// Cost as above.
+std::vector<MemorySignal> memory_signals(const PlanData& plan);
 
 }  // namespace rg::compiler

@@ -51,6 +51,7 @@ class Dropper {
     for (uint32_t s = 0; s < order_.scopes.size(); ++s) drop_bits(s);
     write_back();
     sync_.releases = trimmed_releases(lines);
+    note_over();
   }
 
  private:
@@ -79,36 +80,49 @@ class Dropper {
     }
   }
 
-  // Signals that name stages for memory: whoever waits for one comes after all that its queue has done, since the signal before, to transients that
-  // are released there. No wait is kept for that, so waits are settled by now.
+  // Signals on which clocks count: each comes after all that its queue has released before it. What a release says is about its stages, whoever used
+  // them, so a signal comes after it that names them or goes on after barriers behind it.
   void rest_on_memory(const std::vector<Line>& lines) {
-    if (std::none_of(sync_.batches.begin(), sync_.batches.end(), [](const BatchSync& batch) { return batch.for_memory != 0; })) return;
-    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> uses;  // by resource and queue
-    for (const uint32_t use : last_uses_) uses[{frame_.cells[order_.sources[use].cell].resource, order_.sources[use].queue}].push_back(use);
+    if (std::none_of(sync_.batches.begin(), sync_.batches.end(), [](const BatchSync& batch) { return batch.for_memory; })) return;
     for (const Release& release : trimmed_releases(lines)) {
-      const std::pair<uint32_t, uint32_t> of{release.resource, release.queue};
-      const std::vector<uint32_t>& list = uses[of];
-      uint32_t last = 0;
-      for (const uint32_t use : list) last = std::max(last, order_.sources[use].after);
-      const auto& signals = signals_on_[of.second];
-      const auto at =
-          std::find_if(signals.begin(), signals.end(), [&](uint32_t s) { return !order_.scopes[s].gone && order_.scopes[s].point >= last; });
-      if (at == signals.end() || sync_.batches[order_.scopes[*at].slot].for_memory == 0) continue;
-      if (rest_on_signal(list, order_.scopes[*at])) sync_.over_at[of] = order_.scopes[*at].slot;
+      const uint32_t after = order_.point_of_slot(last_slot_.at({release.resource, release.queue})) + 1;
+      const auto& signals = signals_on_[release.queue];
+      const auto at = std::find_if(signals.begin(), signals.end(), [&](uint32_t s) {
+        const SyncScope& signal = order_.scopes[s];
+        return !signal.gone && signal.point >= after && sync_.batches[signal.slot].for_memory;
+      });
+      if (at != signals.end() && rest_on_signal(release, after, *at)) over_[{release.resource, release.queue}] = {release, order_.scopes[*at].slot};
     }
   }
-  bool rest_on_signal(const std::vector<uint32_t>& uses, const SyncScope& signal) {
+  bool rest_on_signal(const Release& release, uint32_t after, uint32_t signal) {
     std::vector<SyncFact> facts;
-    for (const SyncScope& wait : order_.scopes)
-      if (wait.kind == SyncKind::wait && !wait.gone && wait.from_queue == signal.queue && wait.number == signal.number)
-        for (const uint32_t use : uses) facts.push_back({SyncFact::Kind::follows, use, wait.point + 1, wait.queue, wait.dst, 0, 0, UINT32_MAX});
-    if (facts.empty() || !std::all_of(facts.begin(), facts.end(), [&](const SyncFact& fact) { return order_.derive(fact, found_); })) return false;
+    const auto add = [&](SyncSource::Kind kind, Stages stage, Accesses access) {
+      facts.push_back(
+          {SyncFact::Kind::feeds, static_cast<uint32_t>(order_.sources.size()), order_.scopes[signal].point, release.queue, 0, 0, signal});
+      order_.sources.push_back({kind, kNone, release.queue, after, stage, access, 0, false, {}});
+    };
+    for (Stages stages = release.stages; stages; stages &= stages - 1) {
+      const Stages stage = stages & ~(stages - 1);
+      add(SyncSource::Kind::read, stage, 0);
+      for (Accesses writes = release.accesses & supported_accesses(stage); writes; writes &= writes - 1)
+        add(SyncSource::Kind::write, stage, writes & ~(writes - 1));
+    }
+    if (!std::all_of(facts.begin(), facts.end(), [&](const SyncFact& fact) { return order_.derive(fact, found_); })) return false;
     for (const SyncFact& fact : facts) {
       order_.derive(fact, found_);
       facts_.push_back(fact), rests_on_.emplace_back();
       rest(static_cast<uint32_t>(facts_.size()) - 1, found_);
     }
     return true;
+  }
+  // Of releases that are what they were when they were proved to be over.
+  void note_over() {
+    for (const Release& release : sync_.releases) {
+      const auto found = over_.find({release.resource, release.queue});
+      if (found == over_.end()) continue;
+      const auto& [proved, batch] = found->second;
+      if (release.stages == proved.stages && release.accesses == proved.accesses) sync_.over_at[found->first] = batch;
+    }
   }
 
   // True if what `change` does to the scope leaves all facts standing; otherwise nothing has changed.
@@ -272,6 +286,7 @@ class Dropper {
   std::vector<Watches> watches_of_;                  // by scope
   std::vector<std::pair<uint32_t, Atoms>> derived_;  // of the attempt being made, by fact
   std::vector<SyncAtom> derived_atoms_, found_;
+  std::map<std::pair<uint32_t, uint32_t>, std::pair<Release, uint32_t>> over_;  // by resource and queue: by the signal of which batch
 };
 
 }  // namespace

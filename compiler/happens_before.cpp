@@ -35,7 +35,7 @@ void SyncScope::complete() { src_earlier = everything ? ~Stages{0} : with_earlie
 
 HappensBefore::HappensBefore(const Frame& frame, const Schedule& schedule, const SyncPlan& sync)
     : point_of_slot_(schedule.slots()),
-      on_cell_(frame.cells.size()),
+      on_cell_(frame.cells.size() + 1),
       next_cell_(frame.cells.size()),
       waits_on_(schedule.queues.size()),
       last_signal_(schedule.queues.size(), -1),
@@ -145,7 +145,7 @@ void HappensBefore::start(const SyncSource& source) {
 }
 
 std::span<const uint32_t> HappensBefore::on_cell_between(uint32_t cell, uint32_t first, uint32_t end) const {
-  const std::vector<uint32_t>& all = on_cell_[cell];
+  const std::vector<uint32_t>& all = on_cell_[std::min<size_t>(cell, on_cell_.size() - 1)];  // the last: no cell
   const auto at = [&](uint32_t point) {
     return std::lower_bound(all.begin(), all.end(), point, [&](uint32_t s, uint32_t p) { return scopes[s].point < p; });
   };

@@ -50,9 +50,9 @@ struct SyncAtom {
 
 struct SyncSource {
   enum class Kind : uint8_t { read, write, transition, settled, batch } kind = Kind::read;
-  uint32_t cell = 0, queue = 0;
-  uint32_t after = 0;  // it happens after all points below
-  Stages stage = 0;    // one bit; read, write
+  uint32_t cell = 0, queue = 0;  // cell kNone: of whatever resource
+  uint32_t after = 0;            // it happens after all points below
+  Stages stage = 0;              // one bit; read, write
   Accesses access = 0;
   uint32_t scope = 0;                                // transition
   bool signalled = false;                            // before the frame, so that the last signals of the frame before come after it
@@ -60,9 +60,9 @@ struct SyncSource {
 };
 
 struct SyncFact {
-  // sees: `stages` of `queue` (one bit) see the write in `access`. follows: one of `stages` of `queue` comes after the source. feeds: the barrier
-  // `scope` has the source in its first scope. host: the host sees the write, on whatever queue. All hold before the point `before`, which counts on
-  // through the frames after that of the source.
+  // sees: `stages` of `queue` (one bit) see the write in `access`. follows: one of `stages` of `queue` comes after the source. feeds: the barrier or
+  // signal `scope` has the source in its first scope. host: the host sees the write, on whatever queue. All hold before the point `before`, which
+  // counts on through the frames after that of the source.
   enum class Kind : uint8_t { sees, follows, feeds, host } kind = Kind::sees;
   uint32_t source = 0, before = 0, queue = 0;
   Stages stages = 0;

@@ -218,7 +218,7 @@ struct Placed {
 Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
   Placed placed{watch.time("emit_plan", [&] { return emit_plan(parts); }), {}};
   placed.memory = watch.time("plan_memory", [&] {
-    find_alias_clocks(placed.plan);
+    find_alias_clocks(placed.plan, parts.sync.over_at);
     return place_transients(placed.plan, parts.options.effort, parts.options.reasons);
   });
   return placed;
@@ -228,9 +228,9 @@ Placed emit_and_place(const PlanParts& parts, Stopwatch& watch) {
 void signal_for_memory(const std::vector<Line>& lines, const PlanParts& parts, SyncPlan& sync, Placed& placed) {
   constexpr double kWorthwhile = 0.99;
   if (placed.plan.queues.size() == 1 || !parts.options.aliasing) return;
-  const std::vector<Stages> silent = silent_stages(placed.plan);
-  if (silent.empty()) return;
-  SyncPlan other_sync = synchronise(parts.frame, parts.schedule, lines, parts.options, silent);
+  const std::vector<MemorySignal> signals = memory_signals(placed.plan);
+  if (signals.empty()) return;
+  SyncPlan other_sync = synchronise(parts.frame, parts.schedule, lines, parts.options, signals);
   Stopwatch within;
   Placed other = emit_and_place({parts.frame, parts.liveness, parts.schedule, parts.contents, other_sync, parts.options}, within);
   if (static_cast<double>(other.memory.heap_bytes) > kWorthwhile * static_cast<double>(placed.memory.heap_bytes)) return;

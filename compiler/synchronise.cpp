@@ -382,10 +382,10 @@ class Synchroniser {
 }  // namespace
 
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options,
-                     const std::vector<Stages>& for_memory) {
+                     const std::vector<MemorySignal>& for_memory) {
   SyncPlan sync = Synchroniser(frame, schedule, options).run(lines);
   for (size_t b = 0; b < for_memory.size(); ++b)
-    if (sync.batches[b].signal != 0) sync.batches[b].signal |= for_memory[b], sync.batches[b].for_memory = for_memory[b];
+    if (sync.batches[b].signal != 0) sync.batches[b].signal |= for_memory[b].stages, sync.batches[b].for_memory = for_memory[b].counts;
   gather_parts(frame, schedule, lines, sync);
   for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
   drop_redundant(frame, schedule, lines, sync);

@@ -60,10 +60,15 @@ struct BatchWait {
 };
 struct BatchSync {
   std::vector<BatchWait> waits;
-  Stages signal = 0;      // 0: nobody waits for it
-  Stages for_memory = 0;  // of them: those that are there so that memory can change hands, if the facts of drop_redundant() rest on them
+  Stages signal = 0;        // 0: nobody waits for it
+  bool for_memory = false;  // it has to come after all that its queue has released, see MemorySignal
 };
-// By program resource and queue: the batch whose signal comes after all that the queue does to the resource.
+// What the signal of a batch does so that memory can change hands.
+struct MemorySignal {
+  bool counts = false;  // some clock counts as far as it comes after releases
+  Stages stages = 0;    // that it names for that besides
+};
+// Releases by program resource and queue: the batch whose signal is known to come after them.
 using OverAt = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 
 struct SyncPlan {
@@ -73,13 +78,13 @@ struct SyncPlan {
   std::vector<CellBoundary> entry, exit;    // one row a queue that has last users
   std::vector<Acquire> acquires;            // resources by program index; image barriers filled when the plan is emitted
   std::vector<Release> releases;
-  OverAt over_at;         // where `for_memory` says so
+  OverAt over_at;         // of those that some `for_memory` is about
   uint32_t unproved = 0;  // facts of obligations.h that do not hold: the planner is wrong
 };
 
-// `for_memory`: stages by batch that its signal names besides, see silent_stages() of alias_clocks.h.
+// `for_memory`: by batch, see memory_signals() of alias_clocks.h.
 SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::vector<Line>& lines, const PlanOptions& options,
-                     const std::vector<Stages>& for_memory = {});
+                     const std::vector<MemorySignal>& for_memory = {});
 
 // Joins barriers of one group that differ only in neighbouring mips, layers or bytes. Part of synchronise.
 void merge_ranges(const Frame& frame, std::vector<CellBarrier>& group);
