@@ -48,12 +48,12 @@ bool writes_what(const dsl::Pass& pass, Test test) {
 // Takes out those that the program knows of and reports them by themselves, so that they hide no others: what is allowed in its place, and what only
 // such passes wanted.
 void report_known(std::vector<Dead>& dead, dsl::Diagnostics& diagnostics) {
-  dsl::Diagnostics probe = diagnostics;
   std::vector<Dead> others;
   std::set<size_t> known_want, others_want;  // resources
   for (size_t i = dead.size(); i-- > 0;) {
     const dsl::Pass& pass = *dead[i].pass;
-    const dsl::Diagnostic& row = probe.report(DiagnosticKind::ReachesNothing, pass.span, {pass.name, dead[i].reason});
+    dsl::Diagnostic row(DiagnosticKind::ReachesNothing, pass.span, {pass.name, dead[i].reason});
+    diagnostics.judge(row);
     const auto wanted_by = [&](const std::set<size_t>& readers) {
       return writes_what(pass, [&](const dsl::Access& written) { return readers.contains(written.resource.value); });
     };

@@ -19,10 +19,9 @@ constexpr DiagnosticRow kRows[] = {
 #undef RG_DIAGNOSTIC
 };
 
-bool speaks_of(const Allowance& allowance, const Diagnostic& diagnostic) {
-  const Span &scope = allowance.scope, &span = diagnostic.span;
-  return allowance.kind == diagnostic.kind && scope.file == span.file && scope.begin <= span.begin && span.end <= scope.end;
-}
+auto place(DiagnosticKind kind, const Span& span) { return std::make_tuple(kind, span.file.value, span.begin); }
+auto begin_of(const Allowance& allowance) { return place(allowance.kind, allowance.scope); }
+bool are_of_one_file(const Allowance& a, DiagnosticKind kind, const Span& span) { return a.kind == kind && a.scope.file == span.file; }
 
 auto key(const Diagnostic& d) { return std::make_tuple(d.span.file.value, d.span.begin, d.span.end, row(d.kind).code, std::cref(d.arguments)); }
 
@@ -76,8 +75,10 @@ std::string Diagnostic::message() const {
 void Diagnostics::judge(Diagnostic& diagnostic) const {
   if (row(diagnostic.kind).severity != Severity::warning) return;
   const auto names = [&](const std::vector<DiagnosticKind>& kinds) { return std::find(kinds.begin(), kinds.end(), diagnostic.kind) != kinds.end(); };
-  const auto known = std::find_if(allowances_.begin(), allowances_.end(), [&](const Allowance& each) { return speaks_of(each, diagnostic); });
-  if (known != allowances_.end())
+  const auto later = std::upper_bound(allowances_.begin(), allowances_.end(), place(diagnostic.kind, diagnostic.span),
+                                      [](const auto& at, const Allowance& each) { return at < begin_of(each); });
+  const Allowance* known = later == allowances_.begin() ? nullptr : &allowances_[widest_[static_cast<size_t>(later - allowances_.begin()) - 1]];
+  if (known && are_of_one_file(*known, diagnostic.kind, diagnostic.span) && diagnostic.span.end <= known->scope.end)
     diagnostic.standing = Standing::allowed_here, diagnostic.allowed_at = known->at;
   else if (names(policy_.allowed))
     diagnostic.standing = Standing::allowed_outside;
@@ -93,8 +94,16 @@ Diagnostic& Diagnostics::report(DiagnosticKind kind, Span span, std::vector<std:
   return report(Diagnostic(kind, span, std::move(arguments)));
 }
 
-void Diagnostics::allow(Allowance allowance) {
-  allowances_.push_back(allowance);
+void Diagnostics::allow(std::vector<Allowance> allowances) {
+  allowances_ = std::move(allowances);
+  std::stable_sort(allowances_.begin(), allowances_.end(), [](const Allowance& a, const Allowance& b) { return begin_of(a) < begin_of(b); });
+  widest_.clear();
+  for (size_t i = 0; i < allowances_.size(); ++i) {
+    const size_t last = i == 0 ? 0 : widest_.back();
+    const bool wider =
+        are_of_one_file(allowances_[last], allowances_[i].kind, allowances_[i].scope) && allowances_[i].scope.end <= allowances_[last].scope.end;
+    widest_.push_back(wider ? last : i);
+  }
   for (Diagnostic& diagnostic : rows_) judge(diagnostic);
 }
 
@@ -104,9 +113,16 @@ void Diagnostics::judge_by(WarningPolicy policy) {
 }
 
 std::vector<Allowance> Diagnostics::useless() const {
+  std::vector<std::pair<decltype(begin_of(Allowance())), uint32_t>> warnings;  // and where they end
+  for (const Diagnostic& each : rows_) warnings.emplace_back(place(each.kind, each.span), each.span.end);
+  std::sort(warnings.begin(), warnings.end());
   std::vector<Allowance> all;
-  for (const Allowance& each : allowances_)
-    if (std::none_of(rows_.begin(), rows_.end(), [&](const Diagnostic& diagnostic) { return speaks_of(each, diagnostic); })) all.push_back(each);
+  for (const Allowance& each : allowances_) {
+    const auto last = place(each.kind, {each.scope.file, each.scope.end, 0});
+    auto at = std::lower_bound(warnings.begin(), warnings.end(), std::pair(begin_of(each), uint32_t{0}));
+    while (at != warnings.end() && at->first <= last && at->second > each.scope.end) ++at;  // few reach out of a scope
+    if (at == warnings.end() || at->first > last) all.push_back(each);
+  }
   return all;
 }
 

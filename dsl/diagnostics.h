@@ -63,8 +63,10 @@ class Diagnostics {
   Diagnostic& report(Diagnostic diagnostic);  // the reference is valid until the next report
   Diagnostic& report(DiagnosticKind kind, Span span, std::vector<std::string> arguments = {});
   void replace_last(Diagnostic diagnostic) { rows_.back() = std::move(diagnostic); }  // with one that has more notes
-  void allow(Allowance allowance);
+  void allow(std::vector<Allowance> allowances);
   void judge_by(WarningPolicy policy);
+  // Says how the diagnostic would stand if it were reported. O(log allowances).
+  void judge(Diagnostic& diagnostic) const;
   bool has_errors() const;  // warnings that are denied are errors
   const std::vector<Diagnostic>& rows() const { return rows_; }
   std::vector<Allowance> useless() const;  // those that no warning needs
@@ -72,9 +74,9 @@ class Diagnostics {
   void drop_repeats();                     // keeps the first of each kind at each place
 
  private:
-  void judge(Diagnostic& diagnostic) const;
   std::vector<Diagnostic> rows_;
-  std::vector<Allowance> allowances_;
+  std::vector<Allowance> allowances_;  // by kind, file and where their scopes begin
+  std::vector<size_t> widest_;         // by allowance: of those of its kind and file up to it, the one whose scope ends last
   WarningPolicy policy_;
 };
 

@@ -111,11 +111,11 @@ std::string why_not_allowed(std::optional<DiagnosticKind> kind) {
                                        : "it is a note that goes with others";
 }
 
-void take_allowances(const ast::File& tree, Diagnostics& diagnostics) {
+void take_allowances(const ast::File& tree, std::vector<Allowance>& allowances, Diagnostics& diagnostics) {
   for (const ast::Allow& allow : tree.allows) {
     const auto kind = kind_of_code(allow.code.text);
     if (const std::string why = why_not_allowed(kind); why.empty()) {
-      diagnostics.allow({*kind, allow.scope, allow.span});
+      allowances.push_back({*kind, allow.scope, allow.span});
     } else {
       Diagnostic diagnostic(DiagnosticKind::AllowsNothing, allow.span, {std::string(allow.code.text.substr(0, 40)), why});
       for (const DiagnosticKind each : all_diagnostic_kinds())
@@ -153,7 +153,9 @@ FrontEndResult load_program(const std::string& root_path, const ReadSource& read
   Loader loader{read, diagnostics, folder_of(root_path), {}, {}, {}};
   const bool loaded = load(loader, root_path.substr(loader.root_folder.size()), {}, 0).has_value();
   if (loaded) result.program = check(loader.modules, diagnostics);
-  for (const Module& module : loader.modules) take_allowances(module.tree, diagnostics);
+  std::vector<Allowance> allowances;
+  for (const Module& module : loader.modules) take_allowances(module.tree, allowances, diagnostics);
+  diagnostics.allow(std::move(allowances));
   for (SourceFile& file : loader.files) result.files.add(std::move(file));
   diagnostics.drop_repeats();  // a mistake inside a loop is made once, however often the loop runs
   diagnostics.sort();

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "compiler/compile.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::compiler {
 namespace {
@@ -22,12 +23,8 @@ struct Judged {
 Judged judge_text(const std::string& text, CompileOptions options = {}) {
   Judged judged;
   options.until = Until::plans;
-  const auto read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    if (path == "frame.rg") return text;
-    why = "no such file";
-    return std::nullopt;
-  };
-  judged.result = compile("frame.rg", read, options, judged.diagnostics);
+  const test::Files files = {{"frame.rg", text}};
+  judged.result = compile("frame.rg", test::reader_of(files), options, judged.diagnostics);
   return judged;
 }
 
@@ -60,6 +57,25 @@ TEST(Allow, CoversWhatWasDoneForThePass) {
   EXPECT_NE(judge_text(with_reader).text().find("pass `second` reaches no output"), std::string::npos);
   const std::string other = "  image d : r8 4x4\n  pass fourth : compute { read a as sampled  write d as storage }\n";
   EXPECT_NE(judge_text(std::string(with_reader).insert(with_reader.find("  pass show"), other)).text().find("`first`"), std::string::npos);
+}
+
+// A scope that ends before the warning does not hide one around both that holds it; each of the two is needed by something.
+TEST(Allow, OneScopeInAnotherHidesNothing) {
+  const Judged both = judge_text(frame_with("", "  image one : r8 4x4 allow RG0388\n  image two : r8 4x4\n", "allow RG0388"));
+  EXPECT_EQ(both.codes(true), "RG0388 RG0388 ");
+  EXPECT_EQ(both.codes(false), "RG0516 ");
+  const Judged apart = judge_text(frame_with("", "  image one : r8 4x4 allow RG0388\n  image two : r8 4x4\n"));
+  EXPECT_EQ(apart.codes(true), "RG0388 ");
+  EXPECT_EQ(apart.codes(false), "RG0388 RG0516 ");
+}
+
+// Every warning against every allowance would take hours.
+TEST(Allow, ManyAreNothingSpecial) {
+  std::string many;
+  for (int i = 0; i < 20000; ++i) many += "  buffer b" + std::to_string(i) + " : u32[4] allow RG0388\n";
+  const Judged judged = judge_text(frame_with("", many));
+  EXPECT_EQ(judged.codes(true).size(), 20000 * std::string("RG0388 ").size());
+  EXPECT_EQ(judged.codes(false), "RG0516 ");
 }
 
 TEST(Allow, WhatNothingNeedsIsAWarningWithAFix) {
