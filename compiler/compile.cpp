@@ -180,6 +180,15 @@ void judge_devices(const CompileResult& result, dsl::Diagnostics& diagnostics) {
   }
 }
 
+// What switches name, and queues that passes insist on.
+void judge_demands(const std::string& root_path, const CompileResult& result, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  check_switches(root_path, result.unfolded, result.program, options.plan, diagnostics);
+  for (const CompiledGraph& graph : result.graphs) {
+    check_queues(result.program, graph.graph, graph.configurations, diagnostics);
+    check_first_queue(result.program, graph.graph, graph.configurations, options.plan, diagnostics);
+  }
+}
+
 // What no plan of any configuration runs, and what the program asserts about its plans.
 void judge_plans(const CompileResult& result, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
   for (const CompiledGraph& graph : result.graphs)
@@ -194,6 +203,12 @@ void judge_allowances(dsl::Diagnostics& diagnostics) {
     diagnostics.report(
         dsl::Diagnostic(dsl::DiagnosticKind::AllowsNothing, useless.at, {code, "nothing here gives this warning"}).fix(useless.at, ""));
   }
+}
+
+std::vector<GraphOutput> outputs_of(const CompileResult& result) {
+  std::vector<GraphOutput> outputs;
+  for (const CompiledGraph& graph : result.graphs) outputs.push_back({graph.graph, &graph.plans});
+  return outputs;
 }
 
 }  // namespace
@@ -242,12 +257,8 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   judge_devices(result, diagnostics);
   if (diagnostics.has_errors() || options.until == Until::shaders) return result;
 
-  // What switches name, and queues that passes insist on.
-  check_switches(root_path, result.unfolded, result.program, options.plan, diagnostics);
-  for (const CompiledGraph& graph : result.graphs) {
-    check_queues(result.program, graph.graph, graph.configurations, diagnostics);
-    check_first_queue(result.program, graph.graph, graph.configurations, options.plan, diagnostics);
-  }
+  // What the command line and the passes insist on.
+  judge_demands(root_path, result, options, diagnostics);
   if (diagnostics.has_errors()) return result;
 
   // Program to plans, one a configuration.
@@ -259,9 +270,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
 
   // Plans and SPIR-V to files.
   tell(options, "generated files");
-  std::vector<GraphOutput> outputs;
-  for (const CompiledGraph& graph : result.graphs) outputs.push_back({graph.graph, &graph.plans});
-  result.files = generate(result.program, outputs, result.sources, options.command);
+  result.files = generate(result.program, outputs_of(result), result.sources, options.command);
   return result;
 }
 

@@ -31,13 +31,6 @@ bool is_active(const Outcome& outcome, const dsl::Pass& pass, uint32_t frame) {
   return true;
 }
 
-bool is_selected(const Input& input, const dsl::Guard& guard) {
-  return std::all_of(guard.terms.begin(), guard.terms.end(), [&](const dsl::Guard::Term& term) {
-    const uint32_t value = term.feature.value < input.configuration.size() ? input.configuration[term.feature.value] : 0;
-    return (value == term.value) != term.negated;
-  });
-}
-
 // What a location holds: what the last writer left that does not commute with its neighbours, and what commuting ones have added since.
 struct Content {
   Version base = kPoison, added = 0;
@@ -217,7 +210,7 @@ void compare_end(Comparison& c, const Memory& program, const Memory& plan) {
   for (uint32_t r = 0; r < c.model.resources.size(); ++r) {
     const dsl::Resource& resource = c.model.resource(r);
     const ResourceNode& node = c.model.resources[r];
-    if (!is_observable(resource) || !is_selected(*c.model.input, resource.guard)) continue;
+    if (!is_observable(resource) || !is_selected(resource.guard, c.model.input->configuration)) continue;
     for (uint32_t age = 0; age < node.copies; ++age)
       for (uint32_t cell = 0; cell < node.partition.cell_count(); ++cell) {
         const uint32_t at = c.physical(r, age, cell);
@@ -247,7 +240,7 @@ void run_frame(Comparison& c, Memory& program, Memory& plan, Found& found) {
   begin_frame(c, plan);
   for (uint32_t pass = 0; pass < c.program_uses.size(); ++pass) {
     const dsl::Pass& row = c.model.input->graph.passes.rows[pass];
-    if (is_selected(*c.model.input, row.guard) && is_active(c.outcome, row, c.frame)) run_program_pass(c, pass, program, found);
+    if (is_selected(row.guard, c.model.input->configuration) && is_active(c.outcome, row, c.frame)) run_program_pass(c, pass, program, found);
   }
   for (const StepNode& step : c.model.steps) {
     if (!step.is_pass)

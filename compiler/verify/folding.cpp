@@ -8,6 +8,9 @@
 #include <string>
 #include <tuple>
 
+#include "compiler/verify/cells.h"
+#include "compiler/verify/roles.h"
+
 namespace rg::verify {
 namespace {
 
@@ -23,29 +26,6 @@ using Conditions = std::set<std::array<uint32_t, 3>>;
 
 bool is_target(const Access& access) { return access.role == Role::color || access.role == Role::depth || access.role == Role::stencil; }
 bool looks(const Access& access) { return access.mode != Mode::write; }
-
-bool selected(const Pass& pass, const std::vector<uint32_t>& configuration) {
-  for (const dsl::Guard::Term& term : pass.guard.terms) {
-    const bool equal = configuration.at(term.feature.value) == term.value;
-    if (equal == term.negated) return false;
-  }
-  return true;
-}
-
-// Of a format by its name: `d32f_s8`.
-uint32_t aspects_of(const dsl::Resource& image) {
-  const std::string name = dsl::name(image.format);
-  const bool depth = name[0] == 'd', stencil = name.ends_with("s8");
-  return depth || stencil ? (depth ? 2u : 0u) | (stencil ? 4u : 0u) : 1u;
-}
-// An attachment is its own aspect; what shaders see of both is depth.
-uint32_t aspects_of(const dsl::Resource& image, const Access& access) {
-  if (access.range.aspects != 0) return access.range.aspects;
-  const uint32_t all = aspects_of(image);
-  if (access.role == Role::stencil) return 4;
-  const bool shader = access.role == Role::sampled || access.role == Role::storage || access.role == Role::input;
-  return access.role == Role::depth || access.role == Role::depth_readonly || (shader && (all & 2) != 0) ? 2 : all;
-}
 
 Conditions conditions_of(const Pass& pass) {
   Conditions all;
@@ -123,15 +103,13 @@ class Run {
   std::vector<Location> locations(const Access& access) const {
     const dsl::Resource& row = graph_.resources[access.resource];
     if (row.kind == dsl::ResourceKind::buffer) return {{access.resource.value, access.age, 0, 0, 0}};
-    const uint32_t aspects = aspects_of(row, access);
-    const bool one_mip = is_target(access) || access.role == Role::depth_readonly;
-    const uint32_t mips = one_mip ? 1 : std::min(access.range.mips, row.mips - access.range.mip),
-                   layers = std::min(access.range.layers, row.layers - access.range.layer);
+    const dsl::Range range = effective_range(access, aspects_of(row.format));
+    const uint32_t mips = std::min(range.mips, row.mips - range.mip), layers = std::min(range.layers, row.layers - range.layer);
     std::vector<Location> all;
     for (uint32_t aspect = 1; aspect <= 4; aspect *= 2)
-      for (uint32_t mip = 0; mip < mips && (aspects & aspect) != 0; ++mip)
+      for (uint32_t mip = 0; mip < mips && (range.aspects & aspect) != 0; ++mip)
         for (uint32_t layer = 0; layer < layers; ++layer)
-          all.push_back({access.resource.value, access.age, aspect, access.range.mip + mip, access.range.layer + layer});
+          all.push_back({access.resource.value, access.age, aspect, range.mip + mip, range.layer + layer});
     return all;
   }
 
@@ -190,8 +168,8 @@ class Check {
   std::vector<Finding> run() {
     size_t next = 0;
     for (const Pass& pass : apart_.passes) {
-      if (!selected(pass, configuration_)) continue;
-      while (next < folded_.passes.size() && !selected(folded_.passes.rows[next], configuration_)) ++next;
+      if (!is_selected(pass.guard, configuration_)) continue;
+      while (next < folded_.passes.size() && !is_selected(folded_.passes.rows[next].guard, configuration_)) ++next;
       if (next < folded_.passes.size() && folded_.passes.rows[next].name == pass.name)
         compare(pass, folded_.passes.rows[next++]);
       else
@@ -199,7 +177,8 @@ class Check {
       before_.step(pass);
     }
     for (; next < folded_.passes.size(); ++next)
-      if (selected(folded_.passes.rows[next], configuration_)) report(Hazard::order, nullptr, folded_.passes.rows[next].name, "is not where it was");
+      if (is_selected(folded_.passes.rows[next].guard, configuration_))
+        report(Hazard::order, nullptr, folded_.passes.rows[next].name, "is not where it was");
     check_end();
     return std::move(findings_);
   }

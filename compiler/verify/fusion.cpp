@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "compiler/verify/roles.h"
+
 namespace rg::verify {
 namespace {
 
@@ -17,11 +19,6 @@ using dsl::Pass;
 // Resource, frames ago, aspect, mip, layer. Buffers are one location: what a block touches of them is not narrowed.
 using Location = std::tuple<uint32_t, uint32_t, uint32_t, uint32_t, uint32_t>;
 using Versions = std::map<Location, std::string>;  // who wrote last; none: nobody in this frame
-
-bool holds(const dsl::Guard& guard, const std::vector<uint32_t>& configuration) {
-  return std::all_of(guard.terms.begin(), guard.terms.end(),
-                     [&](const dsl::Guard::Term& term) { return (configuration.at(term.feature.value) == term.value) != term.negated; });
-}
 
 std::vector<Location> locations(const dsl::Graph& graph, const Access& access) {
   const dsl::Resource& resource = graph.resources[access.resource];
@@ -69,7 +66,7 @@ class Check {
   std::unordered_map<std::string_view, const Pass*> by_name(const dsl::Graph& graph) const {
     std::unordered_map<std::string_view, const Pass*> result;
     for (const Pass& pass : graph.passes)
-      if (holds(pass.guard, configuration_)) result.try_emplace(pass.name, &pass);
+      if (is_selected(pass.guard, configuration_)) result.try_emplace(pass.name, &pass);
     return result;
   }
 
@@ -83,7 +80,7 @@ class Check {
     const auto as_written = by_name(written_);
     std::unordered_map<std::string, size_t> runs;
     for (const Pass& pass : fused_.passes) {
-      if (!holds(pass.guard, configuration_)) continue;
+      if (!is_selected(pass.guard, configuration_)) continue;
       Unit unit{&pass, {}};
       for (const std::string& name : members_of(pass.name)) {
         const auto found = as_written.find(name);
@@ -96,7 +93,7 @@ class Check {
       units_.push_back(std::move(unit));
     }
     for (const Pass& pass : written_.passes)
-      if (holds(pass.guard, configuration_) && runs[pass.name] != 1)
+      if (is_selected(pass.guard, configuration_) && runs[pass.name] != 1)
         report(Hazard::missing_pass, nullptr, pass.name, "", "`" + pass.name + "` runs " + std::to_string(runs[pass.name]) + " times");
   }
 
@@ -104,7 +101,7 @@ class Check {
 
   void run_written() {
     for (const Pass& pass : written_.passes) {
-      if (!holds(pass.guard, configuration_)) continue;
+      if (!is_selected(pass.guard, configuration_)) continue;
       for (const Access& access : pass.accesses)
         if (reads(access))
           for (const Location& at : locations(written_, access)) seen_[{&access, at}] = last_[at];

@@ -78,6 +78,13 @@ bool is_attachment_layout(const dsl::Access& access, uint32_t aspect, Layout lay
 
 }  // namespace
 
+bool is_selected(const dsl::Guard& guard, const std::vector<uint32_t>& configuration) {
+  return std::all_of(guard.terms.begin(), guard.terms.end(), [&](const dsl::Guard::Term& term) {
+    const uint32_t value = term.feature.value < configuration.size() ? configuration[term.feature.value] : 0;
+    return (value == term.value) != term.negated;
+  });
+}
+
 bool is_attachment(Role role) { return role == Role::color || is_depth_role(role); }
 
 bool is_rendered(const dsl::Pass& pass, Role role) {

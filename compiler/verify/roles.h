@@ -16,6 +16,8 @@ struct Touch {
   bool needed = true;  // false: may be named in a barrier, but the command is right without (a test after a clear)
 };
 
+// What a guard stands for is in the program of this configuration; features that it does not name have their first value.
+bool is_selected(const dsl::Guard& guard, const std::vector<uint32_t>& configuration);
 bool is_attachment(dsl::Role role);
 // An attachment of a rendering, or the target of a resolve at its end.
 bool is_rendered(const dsl::Pass& pass, dsl::Role role);

@@ -126,10 +126,7 @@ void check_steps(const Plan& plan, Bounds& bounds) {
 void check_configuration(const Input& input, Bounds& bounds) {
   for (const uint32_t index : input.program_pass) {
     const dsl::Pass& pass = input.graph.passes.rows[index];
-    for (const dsl::Guard::Term& term : pass.guard.terms) {
-      const uint32_t value = term.feature.value < input.configuration.size() ? input.configuration[term.feature.value] : 0;
-      bounds.expect((value == term.value) != term.negated, "`" + pass.name + "` does not belong to this configuration");
-    }
+    bounds.expect(is_selected(pass.guard, input.configuration), "`" + pass.name + "` does not belong to this configuration");
   }
 }
 
@@ -304,11 +301,7 @@ void check_kept(const Model& model, Report& report) {
   for (const PassNode& node : model.passes) planned[node.program_pass] = true;
   for (uint32_t p = 0; p < planned.size(); ++p) {
     const dsl::Pass& pass = model.input->graph.passes.rows[p];
-    const bool selected = std::all_of(pass.guard.terms.begin(), pass.guard.terms.end(), [&](const dsl::Guard::Term& term) {
-      const uint32_t value = term.feature.value < model.input->configuration.size() ? model.input->configuration[term.feature.value] : 0;
-      return (value == term.value) != term.negated;
-    });
-    if (pass.keep && selected && !planned[p])
+    if (pass.keep && is_selected(pass.guard, model.input->configuration) && !planned[p])
       report.add({Hazard::missing_pass, "", pass.name, "", "`" + pass.name + "` is declared `keep` but is not planned"});
   }
 }

@@ -9,12 +9,13 @@
 
 #include "compiler/compile.h"
 #include "compiler/verify/verify.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::compiler {
 namespace {
 
 namespace fs = std::filesystem;
-using Files = std::map<std::string, std::string>;
+using test::Files;
 
 // A block is a file: "```rg" the next root, "```rg tiles.rg", "```glsl show.frag" and "```json x.json" what stands beside it.
 std::vector<Files> read_examples(const fs::path& page) {
@@ -50,16 +51,10 @@ void expect_proved(const CompileResult& result) {
 }
 
 void expect_right(const Files& files, const std::string& page) {
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto at = files.find(path);
-    if (at != files.end()) return at->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   CompileOptions options;
   options.until = Until::plans;
   dsl::Diagnostics diagnostics;
-  const CompileResult result = compile("example.rg", read, options, diagnostics);
+  const CompileResult result = compile("example.rg", test::reader_of(files), options, diagnostics);
   EXPECT_EQ(dsl::print(diagnostics, result.sources, false), "") << page << "\n" << dsl::print(diagnostics, result.sources, false);
   expect_proved(result);
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "compiler/compile.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::compiler {
 namespace {
@@ -22,16 +23,10 @@ constexpr const char* kNoProfile = "none";
 dsl::Diagnostics check(const Case& input) {
   const std::string target = input.profile == kNoProfile ? "" : "target profile \"p.json\"\n";
   const std::map<std::string, std::string> files = {{"frame.rg", target + input.frame}, {"p.json", input.profile}, {"p.comp", input.shader}};
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto at = files.find(path);
-    if (at != files.end()) return at->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   CompileOptions options;
   options.until = Until::plans;
   dsl::Diagnostics diagnostics;
-  compile("frame.rg", read, options, diagnostics);
+  compile("frame.rg", test::reader_of(files), options, diagnostics);
   return diagnostics;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "compiler/compile.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::compiler {
 namespace {
@@ -26,16 +27,10 @@ graph frame(params left: Camera, params right: Camera)
 TEST(Techniques, InstancesWithOtherBlocksShareTheShader) {
   const std::map<std::string, std::string> files = {
       {"frame.rg", kTwoCameras}, {"draw.comp", "void main() { imageStore(target, ivec2(gl_GlobalInvocationID.xy), vec4(camera.exposure)); }\n"}};
-  const auto read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto at = files.find(path);
-    if (at != files.end()) return at->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   CompileOptions options;
   options.until = Until::plans;
   dsl::Diagnostics diagnostics;
-  const CompileResult result = compile("frame.rg", read, options, diagnostics);
+  const CompileResult result = compile("frame.rg", test::reader_of(files), options, diagnostics);
   ASSERT_TRUE(diagnostics.rows().empty()) << dsl::print(diagnostics, result.sources, false);
   EXPECT_EQ(result.graphs[0].shaders.shaders.size(), 1u);
   const PlanData& plan = result.graphs[0].plans[0].plan;

@@ -7,12 +7,13 @@
 #include <map>
 
 #include "compiler/compile.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::compiler {
 namespace fs = std::filesystem;
 namespace {
 
-using Files = std::map<std::string, std::string>;
+using test::Files;
 
 struct Compiled {
   CompileResult result;
@@ -28,14 +29,8 @@ struct Compiled {
 };
 
 Compiled compile_files(const Files& files, CompileOptions options = {}) {
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = files.find(path);
-    if (file != files.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   Compiled compiled;
-  compiled.result = compile("frame.rg", read, options, compiled.diagnostics);
+  compiled.result = compile("frame.rg", test::reader_of(files), options, compiled.diagnostics);
   return compiled;
 }
 

@@ -4,15 +4,6 @@
 
 namespace rg::test {
 
-dsl::ReadSource reader_of(const Files& files) {
-  return [&files](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = files.find(path);
-    if (file != files.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
-}
-
 compiler::CompileResult compile_files(const Files& files, const compiler::PlanOptions& plan) {
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;

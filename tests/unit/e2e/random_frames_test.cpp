@@ -15,17 +15,11 @@ namespace {
 constexpr uint32_t kFrames = 4;
 
 compiler::CompileResult compile_frame(const RandomFrame& frame, const compiler::PlanOptions& plan, uint64_t seed) {
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = frame.files.find(path);
-    if (file != frame.files.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   dsl::Diagnostics diagnostics;
   compiler::CompileOptions options;
   options.until = compiler::Until::plans;
   options.plan = plan;
-  compiler::CompileResult result = compiler::compile("random.rg", read, options, diagnostics);
+  compiler::CompileResult result = compiler::compile("random.rg", reader_of(frame.files), options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << "seed " << seed << "\n" << dsl::print(diagnostics, result.sources, false) << frame.files.at("random.rg");
   return result;
 }

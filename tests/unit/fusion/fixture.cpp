@@ -21,18 +21,12 @@ std::string Compiled::messages() const {
 }
 
 Compiled compile_files(const Files& files, bool fuse, const std::vector<std::string>& fixed, compiler::CompileOptions options) {
-  const dsl::ReadSource read = [&](const std::string& path, std::string& why) -> std::optional<std::string> {
-    const auto file = files.find(path);
-    if (file != files.end()) return file->second;
-    why = "no such file";
-    return std::nullopt;
-  };
   Compiled compiled;
   options.until = compiler::Until::plans;
   options.workers = 1;
   options.fuse = fuse;
   options.fixed_features = fixed;
-  compiled.result = compiler::compile("main.rg", read, options, compiled.diagnostics);
+  compiled.result = compiler::compile("main.rg", reader_of(files), options, compiled.diagnostics);
   return compiled;
 }
 

@@ -3,16 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/compile.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::test {
-
-using Files = std::map<std::string, std::string>;  // main.rg is the root
 
 struct Compiled {
   compiler::CompileResult result;
@@ -21,6 +19,7 @@ struct Compiled {
   std::string messages() const;
   std::string text() const { return dsl::print(diagnostics, result.sources, false); }
 };
+// `main.rg` is the root.
 Compiled compile_files(const Files& files, bool fuse = true, const std::vector<std::string>& fixed = {}, compiler::CompileOptions options = {});
 
 // The checker on every plan, and on what became of the blocks; what it finds are failures.
