@@ -131,8 +131,9 @@ class Finder {
       Index& point = points[batch.queue];
       for (Index s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
         const Step& step = plan_.steps[s];
-        if (step.kind == StepKind::barriers) {
-          queue_of_group[step.index] = batch.queue, point_of_group[step.index] = point++;
+        if (step.kind != StepKind::pass) {
+          if (step.kind == StepKind::barriers && plan_.groups[step.index].event == kNone)
+            queue_of_group[step.index] = batch.queue, point_of_group[step.index] = point++;
           continue;
         }
         const Pass& pass = plan_.passes[step.index];

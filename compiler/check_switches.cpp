@@ -32,5 +32,6 @@ void check_switches(const std::string& root_path, const dsl::Program& written, c
   check("--no-reorder", options.no_reorder, passes);
   check("--no-merge", options.no_merge, passes);
   check("--no-fold", options.no_fold, passes);
+  check("--no-split", options.no_split, resources);
 }
 }  // namespace rg::compiler

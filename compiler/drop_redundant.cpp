@@ -32,6 +32,8 @@ class Dropper {
     }
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::signal) signals_on_[order_.scopes[s].queue].push_back(s);
+    for (uint32_t segment = 0; segment < schedule.segments; ++segment)
+      if (segment == 0 || schedule.batch_of[segment - 1] != schedule.batch_of[segment]) first_slots_.push_back(schedule.slot_before(segment));
   }
 
   void run(const std::vector<Line>& lines) {
@@ -49,9 +51,10 @@ class Dropper {
     for (uint32_t s = 0; s < order_.scopes.size(); ++s)
       if (order_.scopes[s].kind == SyncKind::barrier) order_.scopes[s].changes ? drop_discard(s) : drop(s, {s, AtomField::whole, 0});
     for (uint32_t s = 0; s < order_.scopes.size(); ++s) drop_bits(s);
-    write_back();
     sync_.releases = trimmed_releases(lines);
     note_over();
+    if (frame_.program->split_barriers) find_set_slots();
+    write_back();
   }
 
  private:
@@ -201,6 +204,37 @@ class Dropper {
     each(AtomField::dst_stage, &SyncScope::dst), each(AtomField::dst_access, &SyncScope::dst_accesses);
   }
 
+  // ---- how early an event could be set ------------------------------------------------------------------------------
+
+  // After all that comes before the barrier on the ways that facts and releases rest on.
+  void find_set_slots() {
+    std::vector<uint32_t> recorded(order_.scopes.size());  // by scope: how many points have to be
+    for (uint32_t fact = 0; fact < facts_.size(); ++fact)
+      note_way(order_.sources[facts_[fact].source], std::span(atoms_).subspan(rests_on_[fact].first, rests_on_[fact].count), recorded);
+    for (const auto& [source, way] : ways_of_releases_) note_way(order_.sources[source], way, recorded);
+    for (uint32_t s = 0; s < order_.scopes.size(); ++s) {
+      const SyncScope& scope = order_.scopes[s];
+      if (scope.kind != SyncKind::barrier || scope.gone) continue;
+      const uint32_t first = order_.point_of_slot(first_slot_of_batch(scope.slot)), needed = std::max(recorded[s], first);
+      sync_.groups[scope.slot][scope.index].set_slot = scope.slot - (scope.point - std::min(scope.point, needed));
+    }
+  }
+  // Atoms of a way stand from its target to its source.
+  void note_way(const SyncSource& source, std::span<const SyncAtom> way, std::vector<uint32_t>& recorded) const {
+    for (size_t i = 0; i < way.size(); ++i) {
+      const uint32_t scope = way[i].scope;
+      if (i + 1 < way.size() && way[i + 1].scope == scope) continue;
+      const bool is_source = source.kind == SyncSource::Kind::transition && source.scope == scope;
+      if (i + 1 == way.size() && is_source) continue;
+      const uint32_t before = i + 1 < way.size() ? order_.scopes[way[i + 1].scope].point + 1 : source.after;
+      recorded[scope] = std::max(recorded[scope], before);
+    }
+  }
+  uint32_t first_slot_of_batch(uint32_t slot) const {
+    const auto batch = std::upper_bound(first_slots_.begin(), first_slots_.end(), slot);
+    return *(batch - 1);
+  }
+
   void write_back() {
     for (const SyncScope& scope : order_.scopes) {
       if (scope.kind == SyncKind::wait) {
@@ -231,6 +265,7 @@ class Dropper {
       for (const uint32_t resource = sync_.releases[i].resource; i < sync_.releases.size() && sync_.releases[i].resource == resource; ++i)
         rows.push_back(sync_.releases[i]);
       trim(rows, uses[rows.front().resource]);
+      if (frame_.program->split_barriers) note_releases(rows, uses[rows.front().resource]);
       trimmed.insert(trimmed.end(), rows.begin(), rows.end());
     }
     return trimmed;
@@ -257,6 +292,15 @@ class Dropper {
           if (less[i].stages != 0 && wait_for_all(less, uses)) rows = std::move(less);
         }
   }
+  void note_releases(const std::vector<Release>& rows, const std::vector<uint32_t>& uses) {
+    for (const uint32_t use : uses)
+      for (const Release& row : rows) {
+        found_.clear();
+        if (!waits_for(row, use)) continue;
+        ways_of_releases_.emplace_back(use, found_);
+        break;
+      }
+  }
   bool wait_for_all(const std::vector<Release>& rows, const std::vector<uint32_t>& uses) {
     return std::all_of(uses.begin(), uses.end(),
                        [&](uint32_t use) { return std::any_of(rows.begin(), rows.end(), [&](const Release& row) { return waits_for(row, use); }); });
@@ -266,9 +310,8 @@ class Dropper {
     const bool named = source.access ? (row.stages & source.stage) && (row.accesses & source.access) : (with_earlier(row.stages) & source.stage) != 0;
     if (row.queue == source.queue && named) return true;
     const uint32_t point = order_.point_of_slot(last_slot_.at({row.resource, row.queue}) + 1);
-    std::vector<SyncAtom> atoms;
     return point >= source.after &&
-           order_.derive({SyncFact::Kind::follows, use, point, row.queue, with_earlier(row.stages), 0, 0, UINT32_MAX}, atoms);
+           order_.derive({SyncFact::Kind::follows, use, point, row.queue, with_earlier(row.stages), 0, 0, UINT32_MAX}, found_);
   }
 
   const Frame& frame_;
@@ -278,8 +321,10 @@ class Dropper {
   std::vector<SyncFact> facts_;
   std::map<uint32_t, std::vector<SyncFact>> without_;
   std::vector<uint32_t> last_uses_;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> last_slot_;  // of transients, by resource and queue
-  std::vector<std::vector<uint32_t>> signals_on_;                // by queue: scopes
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> last_slot_;               // of transients, by resource and queue
+  std::vector<std::vector<uint32_t>> signals_on_;                             // by queue: scopes
+  std::vector<std::pair<uint32_t, std::vector<SyncAtom>>> ways_of_releases_;  // by source
+  std::vector<uint32_t> first_slots_;                                         // by batch
   std::vector<SyncAtom> atoms_;
   std::vector<Atoms> rests_on_;  // by fact
   std::vector<Watch> watches_;

@@ -69,7 +69,7 @@ void emit_boundary(const PlanParts& parts, const PlanIndices& indices, const std
 }  // namespace
 
 // Groups in front of segments are always there, for hand-offs of memory; those at the end of a batch where something stands in them, and at the end
-// of a frame on one queue.
+// of a frame on one queue. Split groups have the numbers after them all, so that those of the others tell how far a frame has come.
 std::vector<Index> groups_of_slots(const PlanParts& parts) {
   std::vector<Index> groups(parts.sync.groups.size(), kNone);
   std::vector<bool> opens(groups.size());
@@ -85,6 +85,10 @@ void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressio
   const std::vector<Index> group_of_slot = groups_of_slots(parts);
   for (uint32_t slot = 0; slot < group_of_slot.size(); ++slot)
     if (group_of_slot[slot] != kNone) emit_group(parts, indices, parts.sync.groups[slot], acquires, exprs, plan);
+  for (Index event = 0; event < parts.sync.splits.size(); ++event) {
+    emit_group(parts, indices, parts.sync.splits[event].barriers, acquires, exprs, plan);
+    plan.groups.back().event = event;
+  }
   for (Acquire& acquire : acquires) acquire.resource = indices.resource[acquire.resource], acquire.group = group_of_slot[acquire.group];
   plan.acquires = std::move(acquires);
   plan.releases = parts.sync.releases;

@@ -49,9 +49,30 @@ void emit_culled(const PlanParts& parts, PlanData& plan) {
     if (!parts.liveness.live[pass]) plan.culled.push_back({intern(parts.frame.pass(pass).name), intern(parts.liveness.reasons[pass])});
 }
 
+// What stands in a slot: events are set before its barriers, and waited for behind them, so that neither goes on after the other.
+class SlotSteps {
+ public:
+  explicit SlotSteps(const PlanParts& parts) : groups_(groups_of_slots(parts)), set_(groups_.size()), awaited_(groups_.size()) {
+    auto group = static_cast<Index>(groups_.size() - static_cast<size_t>(std::count(groups_.begin(), groups_.end(), kNone)));
+    for (const SplitGroup& split : parts.sync.splits) {
+      set_[split.set_slot].push_back(group);
+      awaited_[split.wait_slot].push_back(group++);
+    }
+  }
+  void emit(uint32_t slot, PlanData& plan) const {
+    for (const Index group : set_[slot]) plan.steps.push_back({StepKind::set, group});
+    if (groups_[slot] != kNone) plan.steps.push_back({StepKind::barriers, groups_[slot]});
+    for (const Index group : awaited_[slot]) plan.steps.push_back({StepKind::barriers, group});
+  }
+
+ private:
+  std::vector<Index> groups_;
+  std::vector<std::vector<Index>> set_, awaited_;  // by slot
+};
+
 void emit_steps(const PlanParts& parts, PlanData& plan) {
   const Schedule& schedule = parts.schedule;
-  const std::vector<Index> groups = groups_of_slots(parts);
+  const SlotSteps slots(parts);
   size_t next = 0;
   uint32_t segment = 0;
   for (uint32_t b = 0; b < schedule.batches; ++b) {
@@ -59,11 +80,11 @@ void emit_steps(const PlanParts& parts, PlanData& plan) {
     batch.queue = segment < schedule.segments ? schedule.queue_of[segment] : 0;
     batch.first_step = static_cast<Index>(plan.steps.size());
     for (; segment < schedule.segments && schedule.batch_of[segment] == b; ++segment) {
-      plan.steps.push_back({StepKind::barriers, groups[schedule.slot_before(segment)]});
+      slots.emit(schedule.slot_before(segment), plan);
       for (; next < schedule.order.size() && schedule.segment_of[schedule.order[next]] == segment; ++next)
         plan.steps.push_back({StepKind::pass, static_cast<Index>(next)});
     }
-    if (const Index closing = groups[schedule.closing_slot(b)]; closing != kNone) plan.steps.push_back({StepKind::barriers, closing});
+    slots.emit(schedule.closing_slot(b), plan);
     batch.step_count = static_cast<Index>(plan.steps.size()) - batch.first_step;
     plan.batches.push_back(batch);
   }

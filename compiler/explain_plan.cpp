@@ -158,20 +158,31 @@ std::string remedy(const CellBarrier& b, bool image) {
   return "";
 }
 
-void explain_barriers(const PlanParts& parts, Decisions& out) {
-  const std::vector<Index> groups = groups_of_slots(parts);
-  for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
-    for (const CellBarrier& b : parts.sync.groups[slot]) {
-      const std::string reason =
-          fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
-      const dsl::Resource& row = parts.frame.resource_of(b.cell);
-      const std::string& resource = row.name;
-      const std::string change = remedy(b, row.kind == dsl::ResourceKind::image);
-      out.push_back({fmt::format("group {}", groups[slot]), "barrier", fmt::format("`{}`: {}{}", resource, reason, change)});
-      out.push_back({resource, "barrier", fmt::format("in group {}: {}{}", groups[slot], reason, change)});
-    }
+std::string barrier_reason(const CellBarrier& b) {
+  return fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
 }
 
+void explain_barriers(const PlanParts& parts, Decisions& out) {
+  const std::vector<Index> groups = groups_of_slots(parts);
+  const auto add = [&](const CellBarrier& b, Index group, const std::string& halves) {
+    const dsl::Resource& row = parts.frame.resource_of(b.cell);
+    const std::string reason = barrier_reason(b), change = remedy(b, row.kind == dsl::ResourceKind::image) + halves;
+    out.push_back({fmt::format("group {}", group), "barrier", fmt::format("`{}`: {}{}", row.name, reason, change)});
+    out.push_back({row.name, "barrier", fmt::format("in group {}: {}{}", group, reason, change)});
+  };
+  for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
+    for (const CellBarrier& b : parts.sync.groups[slot]) add(b, groups[slot], b.whole.empty() ? "" : fmt::format("; not split, because {}", b.whole));
+  auto group = static_cast<Index>(groups.size() - static_cast<size_t>(std::count(groups.begin(), groups.end(), kNone)));
+  for (const SplitGroup& split : parts.sync.splits) {
+    for (const CellBarrier& b : split.barriers)
+      add(b, group,
+          fmt::format(
+              "; split, set in front of group {} and awaited in front of group {}: what stands between is not waited for; `--no-split={}` would "
+              "make it whole",
+              groups[split.set_slot], groups[split.wait_slot], parts.frame.resource_of(b.cell).name));
+    ++group;
+  }
+}
 // Subjects "wait 0", "wait 1", ... as in the plan's table of waits.
 void explain_waits(const PlanParts& parts, const PlanData& plan, Decisions& out) {
   for (const Batch& batch : plan.batches)

@@ -45,9 +45,11 @@ struct Walk {
 
 void visit(Walk& at, const Step& step, uint32_t batch, uint32_t queue, uint64_t before) {
   if (at.groups.size() <= queue) at.groups.resize(queue + 1);
+  if (step.kind == StepKind::set) return;
   if (step.kind == StepKind::barriers) {
-    const uint32_t count = barriers_of(at.plan.groups[step.index]);
-    ++at.groups[queue];
+    const BarrierGroup& group = at.plan.groups[step.index];
+    const uint32_t count = barriers_of(group);
+    at.groups[queue] += group.event == kNone;  // a split one stands behind another that is not
     at.pending += count;
     at.figures.barrier_calls += count > 0;
     return;

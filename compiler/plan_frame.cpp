@@ -247,6 +247,7 @@ PlanOptions options_for(const PlanOptions& options, const std::string& graph) {
   result.merge = result.merge && !options.no_merge.contains(graph);
   result.discard = result.discard && !options.no_discard.contains(graph);
   result.fold = result.fold && !options.no_fold.contains(graph);
+  result.split = result.split && !options.no_split.contains(graph);
   return result;
 }
 

@@ -27,9 +27,10 @@ struct PlanOptions {
   bool merge = true;     // passes without a barrier group between them, renderings of several passes
   bool discard = true;   // contents that nobody needs are not kept
   bool fold = true;      // renderings clear and resolve what passes of their own would, see fold_transfers.h
+  bool split = true;     // barriers with events, for targets that ask for them, see split_barriers.h
   bool reasons =
       false;  // decisions for everything, pairs of OrderFacts: what reports and `rgc explain` ask for. Else decisions of queues and renderings
-  std::set<std::string> no_aliasing = {}, no_discard = {};                            // graphs and resources
+  std::set<std::string> no_aliasing = {}, no_discard = {}, no_split = {};             // graphs and resources
   std::set<std::string> no_async = {}, no_reorder = {}, no_merge = {}, no_fold = {};  // graphs and passes
   uint64_t image_alignment = 65536, buffer_alignment = 256;                           // of the device profile used for estimates
   Prefer prefer = Prefer::balance;

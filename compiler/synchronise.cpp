@@ -4,6 +4,7 @@
 
 #include "compiler/gather_parts.h"
 #include "compiler/queue_links.h"
+#include "compiler/split_barriers.h"
 #include "dsl/check_macro.h"
 
 namespace rg::compiler {
@@ -389,6 +390,7 @@ SyncPlan synchronise(const Frame& frame, const Schedule& schedule, const std::ve
   gather_parts(frame, schedule, lines, sync);
   for (std::vector<CellBarrier>& group : sync.groups) merge_ranges(frame, group);
   drop_redundant(frame, schedule, lines, sync);
+  split_barriers(frame, schedule, options, sync);
   return sync;
 }
 

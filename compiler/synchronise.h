@@ -44,6 +44,8 @@ struct CellBarrier {
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
   bool dropped = false;                           // nothing needs it
   bool changes_queue = false;                     // half a change of owner
+  uint32_t set_slot = 0;                          // the first slot at whose beginning everything is recorded that has to be in its first scope
+  std::string_view whole;                         // why it is not split where the target asks for it, a literal
   std::string_view reason;                        // "read after write", a literal
 };
 
@@ -71,8 +73,15 @@ struct MemorySignal {
 // Releases by program resource and queue: the batch whose signal is known to come after them.
 using OverAt = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 
+// Barriers that are set at the beginning of one slot and waited for at that of another, see split_barriers.h.
+struct SplitGroup {
+  uint32_t set_slot = 0, wait_slot = 0;
+  std::vector<CellBarrier> barriers;
+};
+
 struct SyncPlan {
   std::vector<std::vector<CellBarrier>> groups;  // by slot, see Schedule
+  std::vector<SplitGroup> splits;                // by slot of their wait
   std::vector<BatchSync> batches;
   std::vector<bool> concurrent, scattered;  // by program resource; scattered: first used on several queues, so that its memory is not shared
   std::vector<CellBoundary> entry, exit;    // one row a queue that has last users

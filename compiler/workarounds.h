@@ -16,7 +16,7 @@ struct Workaround {
   const char* name;
   const char* drivers;  // vendor and driver as VkDriverId calls it; "any" where a symptom is all that is known
   const char* symptom;
-  bool no_aliasing, no_async, no_reorder, no_merge, no_discard, no_fold;
+  bool no_aliasing, no_async, no_reorder, no_merge, no_discard, no_fold, no_split;
 };
 std::span<const Workaround> known_workarounds();
 std::vector<std::string> workaround_names();

@@ -80,6 +80,7 @@ struct Import {
 struct Target {
   Name api;
   double version = 0;
+  Name with;  // `split_barriers`, or nothing
   Span span;
 };
 struct ProfileTarget {  // `target profile "profiles/desktop.json"`

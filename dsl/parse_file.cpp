@@ -39,6 +39,7 @@ void parse_target(Parser& parser, File& file) {
   }
   target.api = parser.expect_one_of("`vulkan` or `profile`", {"vulkan", "profile"});
   if (!parser.silent) target.version = parse_expression(parser, "a version").real;
+  if (parser.accept_word("with")) target.with = parser.expect_one_of("`split_barriers`", {"split_barriers"});
   target.span = parser.since(begin);
   if (!parser.silent) file.target = target;
 }

@@ -333,6 +333,7 @@ std::string print_type(const Program& program, const Type& type) {
 std::string print_program(const Program& program) {
   Printer at{program, {}};
   at.line("module {}", program.module);
+  if (program.split_barriers) at.line("target with split_barriers");
   for (const Profile& profile : program.profiles) at.line("target profile {}", profile.name);
   for (const Program::Constant& constant : program.constants) at.line("const {} = {}", constant.name, constant.value);
   for (const Extent& extent : program.extents) print_extent(at, extent);

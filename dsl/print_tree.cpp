@@ -282,7 +282,9 @@ std::string print_tree(const File& file) {
   Printer at;
   at.line("module " + text(file.module));
   for (const Import& import : file.imports) at.line("import \"" + std::string(import.path) + "\"");
-  if (file.target) at.line(fmt::format("target {} {}", text(file.target->api), file.target->version));
+  if (file.target)
+    at.line(fmt::format("target {} {}", text(file.target->api), file.target->version) +
+            (file.target->with.empty() ? "" : " with " + text(file.target->with)));
   for (const ProfileTarget& profile : file.profiles) at.line("target profile \"" + std::string(profile.path) + "\"");
   for (const Allow& allow : file.allows) at.line("allow " + text(allow.code) + fmt::format(" in {}..{}", allow.scope.begin, allow.scope.end));
   for (const Declaration& declaration : file.declarations) std::visit([&](const auto& node) { visit(at, node); }, declaration);

@@ -471,6 +471,7 @@ struct Program {
   std::vector<Constant> constants;  // public integer constants, also given to shaders and C++
   Table<GraphId, Graph> graphs;
   std::vector<Profile> profiles = {};  // every one must be able to run every graph
+  bool split_barriers = false;         // the target wants the halves of a barrier apart where work stands between them
   // Not inline: in each file that includes this, copying so many tables would take long to compile.
   Program();
   Program(const Program&);

@@ -56,8 +56,8 @@ inline std::vector<GroupInterval> group_intervals(const Plan& plan) {
   std::vector<GroupInterval> result(plan.resources.size());
   Index group = 0;
   for (const Step& step : plan.steps) {
-    if (step.kind == StepKind::barriers) {
-      group = step.index;
+    if (step.kind != StepKind::pass) {
+      if (step.kind == StepKind::barriers && plan.groups[step.index].event == kNone) group = step.index;
       continue;
     }
     const Pass& pass = plan.passes[step.index];

@@ -103,6 +103,7 @@ Status begin_frame(GraphInstance::State& state, FrameInputs& inputs, const Frame
   RG_TRY(wait_for(state, slot.done));
   if (!state.retired.empty()) release_retired(state);
   if (whose == Commands::ours) RG_TRY(reset_commands(state.context, slot));
+  RG_TRY(reset_events(state.context, slot));
   reset_slot_queries(state.context, slot);
   RG_TRY(take_inputs(state, inputs));
   return state.context.device.classic_render_passes ? update_framebuffers(state.context, *state.sized, state.frame) : Status(Done{});

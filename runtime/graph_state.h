@@ -253,6 +253,7 @@ struct StepRow {
   uint64_t guard = 0;
   uint32_t period = 1;
   Index host_slot = kNone, group = kNone, pass = kNone;  // kNone: there is none
+  bool sets = false, awaits = false;                     // half of a split group
   const PassInfo* info = nullptr;
   const VkRenderingInfo* begun = nullptr;  // of the pass, or of all passes of its rendering
   const VkViewport* viewport = nullptr;
@@ -357,6 +358,7 @@ struct FrameSlot {
   std::vector<VkCommandBuffer> commands;  // by State::chunks
   UniqueQueryPool queries;                // two timestamps a pass
   UniqueQueryPool statistics;             // one query a pass
+  std::vector<UniqueEvent> events;        // by BarrierGroup::event; none where frames are recorded pass by pass
   std::vector<UniqueFence> fences;        // by Device::State::queues; only when validating: the layer learns nothing from waits on timelines
   std::vector<bool> fenced;               // which of them the last frame signals
   Moment done;                            // of its last frame

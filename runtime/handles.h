@@ -46,6 +46,7 @@ using UniqueSetLayout = Unique<VkDescriptorSetLayout, &DeviceFunctions::DestroyD
 using UniqueDescriptorPool = Unique<VkDescriptorPool, &DeviceFunctions::DestroyDescriptorPool>;
 using UniqueSemaphore = Unique<VkSemaphore, &DeviceFunctions::DestroySemaphore>;
 using UniqueFence = Unique<VkFence, &DeviceFunctions::DestroyFence>;
+using UniqueEvent = Unique<VkEvent, &DeviceFunctions::DestroyEvent>;
 using UniqueQueryPool = Unique<VkQueryPool, &DeviceFunctions::DestroyQueryPool>;
 using UniqueCommandPool = Unique<VkCommandPool, &DeviceFunctions::DestroyCommandPool>;
 

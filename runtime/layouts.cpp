@@ -18,7 +18,7 @@ Layout layout_at(const Plan& plan, Index pass, Ref ref, uint32_t aspect, uint32_
     if (boundary.ref == ref && contains(boundary.range, aspect, mip, layer)) layout = boundary.layout;
   for (const Step& step : plan.steps) {
     if (step.kind == StepKind::pass && step.index == pass) break;
-    if (step.kind == StepKind::pass) continue;
+    if (step.kind != StepKind::barriers) continue;
     const BarrierGroup& group = plan.groups[step.index];
     for (const ImageBarrier& barrier : plan.image_barriers.subspan(group.first_image, group.image_count))
       if (barrier.image == ref && contains(barrier.range, aspect, mip, layer)) layout = barrier.new_layout;

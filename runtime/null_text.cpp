@@ -187,6 +187,7 @@ void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info) {
 
 void print_struct(NullLine& line, const VkDescriptorSet& info) { line.handle(info); }
 void print_struct(NullLine& line, const VkBuffer& info) { line.handle(info); }
+void print_struct(NullLine& line, const VkEvent& info) { line.handle(info); }
 
 void print_struct(NullLine& line, const VkWriteDescriptorSet& info) {
   line.handle(info.dstSet);

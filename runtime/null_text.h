@@ -33,6 +33,7 @@ RG_HANDLE(VkDescriptorPool, "descriptor_pool")
 RG_HANDLE(VkDescriptorSet, "set")
 RG_HANDLE(VkSemaphore, "semaphore")
 RG_HANDLE(VkFence, "fence")
+RG_HANDLE(VkEvent, "event")
 RG_HANDLE(VkQueryPool, "queries")
 RG_HANDLE(VkCommandPool, "command_pool")
 RG_HANDLE(VkSwapchainKHR, "swapchain")
@@ -91,6 +92,7 @@ void print_struct(NullLine& line, const VkSemaphoreWaitInfo& info);
 void print_struct(NullLine& line, const VkGraphicsPipelineCreateInfo& info);  // what only some devices can
 void print_struct(NullLine& line, const VkDescriptorSet& info);
 void print_struct(NullLine& line, const VkBuffer& info);
+void print_struct(NullLine& line, const VkEvent& info);
 void print_struct(NullLine& line, const VkWriteDescriptorSet& info);
 void print_struct(NullLine& line, const VkDebugUtilsLabelEXT& info);
 void print_struct(NullLine& line, const uint32_t& info);

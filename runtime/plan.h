@@ -4,7 +4,8 @@
 // Stages, accesses, layouts, usages and formats carry Vulkan's own numbers (static_asserted in runtime/vulkan_values.cpp), so that the
 // executor copies them without translation; this header includes nothing of Vulkan.
 //
-//   plan ── batches ── steps ─┬─ barrier group (one vkCmdPipelineBarrier2)
+//   plan ── batches ── steps ─┬─ barrier group (one vkCmdPipelineBarrier2, or the second half of a split one)
+//                             ├─ set (the first half)
 //                             └─ pass (rendering, pipeline, bindings, dispatch | draw | transfers | host callback)
 //
 // Ownership: every span points to storage that outlives the plan (static data in generated/, or a PlanData).
@@ -145,10 +146,14 @@ struct BufferBarrier {
   friend constexpr bool operator==(const BufferBarrier&, const BufferBarrier&) = default;
 };
 // One vkCmdPipelineBarrier2. May be empty until alias hand-offs are patched in; an empty group is not recorded.
+// With an event it is split: a step `set` earlier in its batch records vkCmdSetEvent2 and the group's own step vkCmdWaitEvents2. Its first scope is what
+// comes before the set, its second one what comes after the wait, and what stands between them is in neither. No memory changes hands in such a group,
+// nor do its barriers change owners.
 struct BarrierGroup {
   Index first_memory = 0, memory_count = 0;
   Index first_image = 0, image_count = 0;
   Index first_buffer = 0, buffer_count = 0;
+  Index event = kNone;  // events are numbered from 0 on
 };
 
 // The first use of a transient in a frame: where memory taken over from others must be handed on.
@@ -164,7 +169,7 @@ struct Acquire {
 };
 // The last real users of a transient on one queue: what must have finished before its bytes are given away. One row a queue that has some.
 //
-// The points of a queue are its barrier groups and the ends of its batches, numbered in recorded order: where something can be ordered after what
+// The points of a queue are its barrier groups that are not split and the ends of its batches, numbered in recorded order: where something can be ordered after what
 // was recorded before it. `point` points stand before the last users; whoever is ordered after point `point` or a later one comes after them.
 struct Release {
   Index resource = kNone;
@@ -366,7 +371,7 @@ struct Pass {
 
 enum class QueueKind : uint8_t { graphics, compute, transfer };
 struct Queue { QueueKind kind = QueueKind::graphics; };
-enum class StepKind : uint8_t { barriers, pass };
+enum class StepKind : uint8_t { barriers, pass, set };  // set: the event of the group `index`
 struct Step { StepKind kind = StepKind::pass; Index index = kNone; };
 // Every queue has one timeline semaphore. Its signals of a frame have the values 1, 2, ...; with S of them a frame, value v of frame f is f * S + v.
 // A queue signals its last batch of the frame at least.

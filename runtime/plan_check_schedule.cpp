@@ -21,27 +21,73 @@ void check_ranges(const Plan& plan, Checker& c) {
     c.range(batch.first_signal, batch.signal_count, plan.signals.size(), "batch", i, "signals");
   }
   for (size_t i = 0; i < plan.steps.size(); ++i) {
-    c.that(plan.steps[i].kind <= StepKind::pass, "step", i, "kind");
-    const bool barriers = plan.steps[i].kind == StepKind::barriers;
-    c.index(plan.steps[i].index, barriers ? plan.groups.size() : plan.passes.size(), "step", i, "index");
+    c.that(plan.steps[i].kind <= StepKind::set, "step", i, "kind");
+    const bool pass = plan.steps[i].kind == StepKind::pass;
+    c.index(plan.steps[i].index, pass ? plan.passes.size() : plan.groups.size(), "step", i, "index");
   }
   for (size_t i = 0; i < plan.waits.size(); ++i) c.index(plan.waits[i].queue, plan.queues.size(), "wait", i, "queue");
 }
 
-// Each step belongs to one batch; each group and each pass is one step.
+// Each step belongs to one batch; each group and each pass is one step, and a split group is set by another.
 void check_steps(const Plan& plan, Checker& c) {
-  std::vector<bool> taken(plan.steps.size()), groups(plan.groups.size()), passes(plan.passes.size());
+  std::vector<bool> taken(plan.steps.size()), groups(plan.groups.size()), passes(plan.passes.size()), set(plan.groups.size());
   for (size_t i = 0; i < plan.batches.size(); ++i)
     for (Index s = plan.batches[i].first_step; s < plan.batches[i].first_step + plan.batches[i].step_count; ++s) {
       c.that(!taken[s], "batch", i, "a step of another batch");
       taken[s] = true;
     }
   for (size_t i = 0; i < plan.steps.size(); ++i) {
-    std::vector<bool>& seen = plan.steps[i].kind == StepKind::barriers ? groups : passes;
+    const StepKind kind = plan.steps[i].kind;
+    std::vector<bool>& seen = kind == StepKind::barriers ? groups : kind == StepKind::pass ? passes : set;
     c.that(taken[i], "step", i, "in no batch");
     c.that(!seen[plan.steps[i].index], "step", i, "recorded twice");
     seen[plan.steps[i].index] = true;
   }
+}
+
+// Events are numbered from 0 on. Each is set once and awaited later in the same batch, on a queue that has events; the runtime patches no hand-off
+// into its group, and neither owners nor the host are its business.
+void check_event(const Plan& plan, const BarrierGroup& group, size_t row, Checker& c) {
+  const auto check = [&](const auto& barriers) {
+    for (const auto& barrier : barriers) {
+      c.that(((barrier.src_stages | barrier.dst_stages) & stage::host) == 0, "group", row, "an event that orders the host");
+      if constexpr (requires { barrier.src_queue; }) c.that(barrier.src_queue == barrier.dst_queue, "group", row, "an event that changes owners");
+    }
+  };
+  check(plan.memory_barriers.subspan(group.first_memory, group.memory_count));
+  check(plan.image_barriers.subspan(group.first_image, group.image_count));
+  check(plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count));
+}
+void check_events(const Plan& plan, Checker& c) {
+  std::vector<bool> numbers(plan.groups.size());
+  size_t events = 0;
+  for (size_t i = 0; i < plan.groups.size(); ++i) {
+    const Index event = plan.groups[i].event;
+    if (event == kNone) continue;
+    ++events;
+    c.that(event < numbers.size() && !numbers[event], "group", i, "event");
+    if (!c.ok()) return;
+    numbers[event] = true;
+    check_event(plan, plan.groups[i], i, c);
+  }
+  for (size_t i = events; i < numbers.size(); ++i) c.that(!numbers[i], "group", i, "events that are not numbered from 0 on");
+  for (size_t i = 0; i < plan.acquires.size(); ++i)
+    c.that(plan.groups[plan.acquires[i].group].event == kNone, "acquire", i, "in a group that is split");
+}
+void check_halves(const Plan& plan, Checker& c) {
+  constexpr Index kAwaited = kNone - 1;
+  std::vector<Index> set(plan.groups.size(), kNone);  // by group: in which batch, or kAwaited
+  for (Index b = 0; b < plan.batches.size(); ++b)
+    for (const Step& step : plan.steps.subspan(plan.batches[b].first_step, plan.batches[b].step_count)) {
+      if (step.kind == StepKind::pass) continue;
+      const bool sets = step.kind == StepKind::set, split = plan.groups[step.index].event != kNone;
+      c.that(split || !sets, "group", step.index, "set, but not split");
+      if (!split) continue;
+      c.that(plan.queues[plan.batches[b].queue].kind != QueueKind::transfer, "group", step.index, "an event on a queue that has none");
+      c.that(set[step.index] == (sets ? kNone : b), "group", step.index, "an event that is not set in the batch that awaits it");
+      set[step.index] = sets ? b : kAwaited;
+    }
+  for (size_t i = 0; i < set.size(); ++i) c.that(set[i] == kNone || set[i] == kAwaited, "group", i, "an event that nothing awaits");
 }
 
 // Passes of one rendering: where the first is skipped nothing begins it for the others.
@@ -148,7 +194,7 @@ void check_work(const Plan& plan, Checker& c) {
   for (const Batch& batch : plan.batches)
     for (const Step& step : plan.steps.subspan(batch.first_step, batch.step_count)) {
       if (!c.ok()) return;
-      if (step.kind == StepKind::barriers) {
+      if (step.kind != StepKind::pass) {
         check_group(plan, batch.queue, step.index, c);
         continue;
       }
@@ -218,6 +264,8 @@ void check_ownership(const Plan& plan, Checker& c) {
 void check_schedule(const Plan& plan, Checker& c) {
   check_ranges(plan, c);
   if (c.ok()) check_steps(plan, c);
+  if (c.ok()) check_events(plan, c);
+  if (c.ok()) check_halves(plan, c);
   if (c.ok()) check_shared_renderings(plan, c);
   if (c.ok()) check_timelines(plan, c);
   if (c.ok()) check_work(plan, c);

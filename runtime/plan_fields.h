@@ -64,7 +64,7 @@ RG_PLAN_ROW(Bytes, offset, size);
 RG_PLAN_ROW(MemoryBarrier, src_stages, src_accesses, dst_stages, dst_accesses, tag);
 RG_PLAN_ROW(ImageBarrier, image, range, src_stages, src_accesses, dst_stages, dst_accesses, old_layout, new_layout, src_queue, dst_queue, tag);
 RG_PLAN_ROW(BufferBarrier, buffer, bytes, src_stages, src_accesses, dst_stages, dst_accesses, src_queue, dst_queue, tag);
-RG_PLAN_ROW(BarrierGroup, first_memory, memory_count, first_image, image_count, first_buffer, buffer_count);
+RG_PLAN_ROW(BarrierGroup, first_memory, memory_count, first_image, image_count, first_buffer, buffer_count, event);
 RG_PLAN_ROW(Acquire, resource, group, image_barrier, image_barriers, stages, accesses, queue, point, first_clock);
 RG_PLAN_ROW(Release, resource, stages, accesses, queue, point);
 RG_PLAN_ROW(Boundary, ref, range, stages, accesses, layout, queue, discard, bytes);

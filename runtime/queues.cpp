@@ -37,7 +37,7 @@ void locate_steps(const Plan& plan, QueueMap& map) {
   map.of_pass.resize(plan.passes.size());
   for (const Batch& batch : plan.batches)
     for (const Step& step : plan.steps.subspan(batch.first_step, batch.step_count))
-      (step.kind == StepKind::barriers ? map.of_group : map.of_pass)[step.index] = batch.queue;
+      (step.kind == StepKind::pass ? map.of_pass : map.of_group)[step.index] = batch.queue;
 }
 
 void list_families(const Device::State& device, QueueMap& map) {

@@ -172,12 +172,16 @@ void record_shared(FrameRecording& r, Index index, const PassRow& row, bool runs
   if (r.in_rendering && row.ends_rendering) end_attachments(r, row);
 }
 
+bool has_open_dumps(const GraphInstance::State& state) {
+  return std::any_of(state.dumps.begin(), state.dumps.end(), [](const DumpRequest& dump) { return !dump.recorded; });
+}
+
 // Whether anything but the frame, its labels and timestamps is recorded, or not in the usual form.
 bool is_watched(const FrameRecording& r) {
   const GraphInstance::State& state = r.state;
   if (r.statistics != VK_NULL_HANDLE) return true;
   if (state.context.serial || state.context.submit_per_pass || state.context.device.classic_render_passes) return true;
-  return std::any_of(state.dumps.begin(), state.dumps.end(), [](const DumpRequest& dump) { return !dump.recorded; });
+  return has_open_dumps(state);
 }
 
 }  // namespace
@@ -231,15 +235,11 @@ FrameRecording start_recording(GraphInstance::State& state, const FrameInputs& i
   const bool can_reset = context.device.host_query_reset || queue == context.plan.batches[0].queue;
   const bool timed = can_reset && row.timestamp_bits != 0 && (context.device.host_query_reset || (row.flags & VK_QUEUE_COMPUTE_BIT) != 0);
   const bool counted = can_reset && (row.flags & VK_QUEUE_GRAPHICS_BIT) != 0;
-  return {state,
-          inputs,
-          commands,
-          state.frame,
-          timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
-          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE),
-          0,
-          context.vk(),
-          static_cast<uint32_t>(state.frame % context.frames_in_flight * state.sized->ring.section)};
+  return {state, inputs, commands, state.frame, timed ? slot.queries.get() : VkQueryPool(VK_NULL_HANDLE),
+          counted ? slot.statistics.get() : VkQueryPool(VK_NULL_HANDLE), 0, context.vk(),
+          static_cast<uint32_t>(state.frame % context.frames_in_flight * state.sized->ring.section), false,
+          // A dump may read in between what an event makes ready for others.
+          slot.events.empty() || has_open_dumps(state) ? nullptr : slot.events.data()};
 }
 
 void reset_queries(const FrameRecording& r) {
@@ -264,12 +264,38 @@ void record_group(const FrameRecording& r, Index group) {
   const Sized& sized = *r.state.sized;
   const GroupRow& row = sized.group_rows[group];
   if (row.poison != kNone) record_poison(r.state.context, sized, sized.poisons[row.poison], r.commands);
-  if (row.infos != nullptr) r.vk.CmdPipelineBarrier2(r.commands, row.infos + row_of(r.frame, row.period));
+  if (row.infos == nullptr) return;
+  const VkDependencyInfo* info = row.infos + row_of(r.frame, row.period);
+  const Index event = r.state.context.plan.groups[group].event;
+  if (event == kNone || r.events == nullptr) return r.vk.CmdPipelineBarrier2(r.commands, info);
+  const VkEvent awaited = r.events[event].get();
+  r.vk.CmdWaitEvents2(r.commands, 1, &awaited, info);
 }
+
+void record_set(const FrameRecording& r, Index group) {
+  const GroupRow& row = r.state.sized->group_rows[group];
+  if (row.infos == nullptr || r.events == nullptr) return;
+  r.vk.CmdSetEvent2(r.commands, r.events[r.state.context.plan.groups[group].event].get(), row.infos + row_of(r.frame, row.period));
+}
+
+namespace {
+
+void record_step(FrameRecording& r, const Step& step) {
+  switch (step.kind) {
+    case StepKind::pass:
+      return record_pass(r, step.index);
+    case StepKind::barriers:
+      return record_group(r, step.index);
+    case StepKind::set:
+      return record_set(r, step.index);
+  }
+}
+
+}  // namespace
 
 void record_steps(FrameRecording& r, std::span<const Step> steps) {
   if (is_watched(r)) {
-    for (const Step& step : steps) step.kind == StepKind::pass ? record_pass(r, step.index) : record_group(r, step.index);
+    for (const Step& step : steps) record_step(r, step);
     return;
   }
   const Sized& sized = *r.state.sized;

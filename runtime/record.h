@@ -14,8 +14,9 @@ struct FrameRecording {
   VkQueryPool statistics = VK_NULL_HANDLE;  // null: none
   uint32_t module = 0;                      // whose label is open; 0: none
   const DeviceFunctions& vk;
-  uint32_t section = 0;       // of the parameter ring
-  bool in_rendering = false;  // passes of one rendering follow
+  uint32_t section = 0;                 // of the parameter ring
+  bool in_rendering = false;            // passes of one rendering follow
+  const UniqueEvent* events = nullptr;  // by BarrierGroup::event; null: split groups are recorded whole, where they are awaited
 };
 
 // For a command buffer of a queue of the plan, with the queries that this queue can write.
@@ -31,6 +32,8 @@ void change_module(FrameRecording& recording, const PassObjects& pass);
 
 // Parts of a step, with whatever instruments there are.
 void record_group(const FrameRecording& recording, Index group);
+// The first half of a split group.
+void record_set(const FrameRecording& recording, Index group);
 void record_pass(FrameRecording& recording, Index pass);
 // Pipeline, sets and work of a pass that runs, in the rendering that has begun.
 void record_body(const FrameRecording& recording, Index pass);

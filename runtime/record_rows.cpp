@@ -63,7 +63,11 @@ RecordRow row_function(const PassRow& pass) {
   return callback_alone ? record_host<target> : record_own<target>;
 }
 
+void set_event(FrameRecording& r, const StepRow& row) { record_set(r, row.group); }
+
 RecordRow function_of(const Sized& sized, const StepRow& row) {
+  if (row.sets) return set_event;
+  if (row.awaits) return record_any;
   if (row.group != kNone && sized.group_rows[row.group].poison != kNone) return record_any;
   if (row.pass == kNone) return record_nothing;
   const PassRow& pass = sized.rows[row.pass];
@@ -93,7 +97,7 @@ size_t end_of_rendering(const Sized& sized, size_t begin) {
 
 void choose_row(const Objects& objects, const Sized& sized, bool any, StepRow& row) {
   row.record = any ? record_any : function_of(sized, row);
-  const bool by_itself = row.record == record_any;
+  const bool by_itself = row.record == record_any || row.sets;
   const GroupRow group = row.group == kNone || by_itself ? GroupRow() : sized.group_rows[row.group];
   row.infos = group.infos, row.period = group.period;
   row.labels = row.pass == kNone || by_itself ? nullptr : &objects.passes[row.pass];
@@ -102,6 +106,7 @@ void choose_row(const Objects& objects, const Sized& sized, bool any, StepRow& r
 StepRow make_row(const Context& context, const Sized& sized, Index group, Index pass) {
   StepRow row;
   row.group = group, row.pass = pass;
+  row.awaits = group != kNone && context.plan.groups[group].event != kNone;
   if (pass == kNone) return row;
   const PassTable& table = sized.passes[pass];
   row.guard = context.plan.passes[pass].guard, row.host_slot = context.plan.passes[pass].host_slot;
@@ -121,12 +126,14 @@ void fill_step_rows(const Context& context, const Objects& objects, Sized& sized
   for (Index s = 0; s < plan.steps.size(); ++s) {
     sized.row_of_step.push_back(static_cast<Index>(sized.step_rows.size()));
     const Step& step = plan.steps[s];
+    const bool split = step.kind != StepKind::pass && plan.groups[step.index].event != kNone;
     if (step.kind == StepKind::pass)
       sized.step_rows.push_back(make_row(context, sized, std::exchange(group, kNone), step.index));
-    else if (ends_batch[s + 1] || plan.steps[s + 1].kind != StepKind::pass)
+    else if (split || ends_batch[s + 1] || plan.steps[s + 1].kind != StepKind::pass)
       sized.step_rows.push_back(make_row(context, sized, step.index, kNone));
     else
       group = step.index;
+    if (step.kind == StepKind::set) sized.step_rows.back().sets = true, sized.step_rows.back().awaits = false;
   }
   sized.row_of_step.push_back(static_cast<Index>(sized.step_rows.size()));
   choose_step_rows(objects, sized);

@@ -168,6 +168,21 @@ Status create_slot_queries(const Context& context, FrameSlot& slot) {
   return Done{};
 }
 
+// Where every step waits for the one before there is nothing that an event could save.
+Status create_events(const Context& context, std::vector<UniqueEvent>& events) {
+  if (context.submit_per_pass || context.serial) return Done{};
+  const auto& groups = context.plan.groups;
+  const auto count = std::count_if(groups.begin(), groups.end(), [](const BarrierGroup& group) { return group.event != kNone; });
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    VkEventCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_EVENT_CREATE_INFO;
+    VkEvent event = VK_NULL_HANDLE;
+    RG_TRY(check(context.vk().CreateEvent(context.device.device, &info, context.vk().allocator, &event), "vkCreateEvent", context.plan.name));
+    events.emplace_back(context.vk(), context.device.device, event);
+  }
+  return Done{};
+}
+
 Status create_slot(const GraphInstance::State& state, FrameSlot& slot) {
   for (const uint32_t family : state.pool_families) {
     Result<CommandPool> pool = create_pool(state.context, family);
@@ -177,6 +192,7 @@ Status create_slot(const GraphInstance::State& state, FrameSlot& slot) {
   slot.commands.resize(state.chunks.size());
   for (size_t i = 0; i < state.chunks.size(); ++i) RG_TRY(allocate(state.context, slot.pools[state.chunks[i].pool], slot.commands[i]));
   RG_TRY(create_slot_queries(state.context, slot));
+  RG_TRY(create_events(state.context, slot.events));
   return create_fences(state.context, slot.fences, slot.fenced);
 }
 
@@ -234,6 +250,12 @@ Status create_frames(GraphInstance::State& state) {
 Status reset_commands(const Context& context, const FrameSlot& slot) {
   for (const CommandPool& pool : slot.pools)
     RG_TRY(check(context.vk().ResetCommandPool(context.device.device, pool.pool.get(), 0), "vkResetCommandPool", context.plan.name));
+  return Done{};
+}
+
+Status reset_events(const Context& context, const FrameSlot& slot) {
+  for (const UniqueEvent& event : slot.events)
+    RG_TRY(check(context.vk().ResetEvent(context.device.device, event.get()), "vkResetEvent", context.plan.name));
   return Done{};
 }
 

@@ -11,6 +11,8 @@ Status create_frames(GraphInstance::State& state);
 
 // Of a slot whose last frame is done: its command buffers can be recorded again, its queries written.
 Status reset_commands(const Context& context, const FrameSlot& slot);
+// Events of the slot's last frame, which is over.
+Status reset_events(const Context& context, const FrameSlot& slot);
 void reset_slot_queries(const Context& context, const FrameSlot& slot);
 
 }  // namespace rg

@@ -79,6 +79,7 @@ void PlanEmitter::barriers() {
     slice(row, "first_memory", g.first_memory, "memory_count", g.memory_count);
     slice(row, "first_image", g.first_image, "image_count", g.image_count);
     slice(row, "first_buffer", g.first_buffer, "buffer_count", g.buffer_count);
+    index(row, "event", g.event);
     return row.comment(group_comment(static_cast<Index>(i)));
   });
 }

@@ -226,7 +226,9 @@ void PlanEmitter::frame() {
   });
   table("Step", "kSteps", plan_.steps, [&](const Step& s, size_t) {
     const bool is_pass = s.kind == StepKind::pass;
-    return Row().field("kind", is_pass ? "StepKind::pass" : "StepKind::barriers").field("index", is_pass ? pass(s.index) : std::to_string(s.index));
+    return Row()
+        .field("kind", enum_text("StepKind", static_cast<size_t>(s.kind), {"barriers", "pass", "set"}))
+        .field("index", is_pass ? pass(s.index) : std::to_string(s.index));
   });
   table("Wait", "kWaits", plan_.waits, [](const Wait& w, size_t) {
     return Row().number("queue", w.queue, kNone).number("value", w.value).field("stages", stages_text(w.stages)).number("frames_ago", w.frames_ago);

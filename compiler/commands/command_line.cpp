@@ -92,6 +92,7 @@ void add_switches(CLI::App& command, compiler::PlanOptions& plan) {
   off("--no-merge", plan.merge, plan.no_merge, "a barrier group before every pass, every rendering of its own");
   off("--no-discard", plan.discard, plan.no_discard, "all old contents kept, loaded and stored");
   off("--no-fold", plan.fold, plan.no_fold, "passes that clear or resolve stay passes of their own");
+  off("--no-split", plan.split, plan.no_split, "no events, whatever the target asks for");
   command
       .add_option_function<std::string>(
           "--workaround", [&plan](const std::string& name) { compiler::apply_workaround(plan, name); },

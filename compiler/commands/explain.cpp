@@ -63,6 +63,7 @@ std::string waited_for(const PlanData& plan, const std::string& name) {
       pending += barrier_group_text(plan, plan.groups[step.index], "    ");
       continue;
     }
+    if (step.kind == StepKind::set) continue;
     if (names(name, plan.passes[step.index].name) && !pending.empty())
       text += fmt::format("  barriers before {}\n{}", plan.passes[step.index].name, pending);
     pending.clear();

@@ -81,6 +81,7 @@ void count_barriers(const PlanData& plan, Facts& facts) {
   for (const BarrierGroup& group : plan.groups) {
     facts.barriers += barrier_count(group);
     if (barrier_count(group)) ++facts.barrier_calls;
+    facts.events += group.event != kNone;
   }
   facts.all_commands = count_blunt(plan);
   const auto add = [&](const auto& barriers) {
@@ -92,7 +93,7 @@ void count_barriers(const PlanData& plan, Facts& facts) {
   add(plan.memory_barriers);
   add(plan.image_barriers);
   add(plan.buffer_barriers);
-  facts.stall_us = static_cast<double>(facts.barrier_calls) * compiler::kLaunchNs / 1000;
+  facts.stall_us = static_cast<double>(facts.barrier_calls - facts.events) * compiler::kLaunchNs / 1000;
 }
 
 }  // namespace
@@ -187,6 +188,7 @@ nlohmann::ordered_json to_json(const Facts& facts) {
       {"barriers",
        {{"calls", facts.barrier_calls},
         {"barriers", facts.barriers},
+        {"events", facts.events},
         {"all_commands", facts.all_commands},
         {"stages", facts.barrier_stages},
         {"accesses", facts.barrier_accesses},

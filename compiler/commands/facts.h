@@ -17,6 +17,7 @@ struct Facts {
   uint64_t heap_bytes = 0, unaliased_bytes = 0, lower_bound_bytes = 0;  // transients at the initial extents, by the device profile
   uint64_t lazy_bytes = 0, heap_beside_lazy_bytes = 0;                  // transients that may live on the chip; the heap without them
   size_t barrier_calls = 0, barriers = 0;                               // vkCmdPipelineBarrier2 with something in it; what they hold together
+  size_t events = 0;                                                    // of those calls, vkCmdWaitEvents2 of barriers in two halves
   size_t all_commands = 0;                                              // barriers naming ALL_COMMANDS, ALL_GRAPHICS, MEMORY_READ or MEMORY_WRITE
   size_t submits = 0, waits = 0;
   size_t barrier_stages = 0, barrier_accesses = 0;  // bits named by all barriers together

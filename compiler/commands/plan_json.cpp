@@ -199,14 +199,17 @@ struct PlanJson {
       json.update(transfer_of_ownership(barrier));
       return json;
     };
-    return {
+    Json json = {
         {"memory", slice(plan.memory_barriers, row.first_memory, row.memory_count, [&](const MemoryBarrier& barrier) { return scopes(barrier); })},
         {"images", slice(plan.image_barriers, row.first_image, row.image_count, image)},
         {"buffers", slice(plan.buffer_barriers, row.first_buffer, row.buffer_count, buffer)}};
+    if (row.event != kNone) json["event"] = row.event;
+    return json;
   }
 
   Json step(const Step& row) const {
     if (row.kind == StepKind::pass) return {{"pass", plan.passes[row.index].name}};
+    if (row.kind == StepKind::set) return {{"set", plan.groups[row.index].event}};
     return {{"barriers", group(plan.groups[row.index])}};
   }
 

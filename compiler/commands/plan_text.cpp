@@ -63,10 +63,23 @@ std::string access_text(const dsl::Graph& graph, const dsl::Access& access) {
   return fmt::format("{} {} as {}", mode_name(access.mode), name, role_name(access.role));
 }
 
+std::string event_text(const BarrierGroup& group) { return group.event == kNone ? "" : fmt::format(" of event {}", group.event); }
+
+// Where a split group begins.
+std::string set_text(const PlanData& plan, const BarrierGroup& group) {
+  std::string after = "at the start of its batch";
+  for (const Step& step : plan.steps) {
+    if (step.kind == StepKind::pass) after = fmt::format("after {}", plan.passes[step.index].name);
+    if (step.kind == StepKind::set && plan.groups[step.index].event == group.event) break;
+  }
+  return fmt::format("event {}, set {}:", group.event, after);
+}
+
 }  // namespace
 
 std::string barrier_group_text(const PlanData& plan, const BarrierGroup& group, const std::string& indent) {
   std::string text;
+  if (group.event != kNone) text += fmt::format("{}{}\n", indent, set_text(plan, group));
   for (Index i = group.first_memory; i < group.first_memory + group.memory_count; ++i)
     text += fmt::format("{}memory  {}{}\n", indent, scopes(plan.memory_barriers[i]), tag_text(plan.memory_barriers[i].tag));
   for (Index i = group.first_image; i < group.first_image + group.image_count; ++i) {
@@ -86,8 +99,10 @@ std::string schedule_text(const PlanData& plan) {
   for (const Step& step : plan.steps) {
     if (step.kind == StepKind::pass)
       text += fmt::format("{:>4}  {}\n", step.index, plan.passes[step.index].name);
+    else if (step.kind == StepKind::set)
+      text += fmt::format("      -- set event {}\n", plan.groups[step.index].event);
     else if (const size_t count = barrier_count(plan.groups[step.index]))
-      text += fmt::format("      -- {}\n", counted(count, "barrier"));
+      text += fmt::format("      -- {}{}\n", counted(count, "barrier"), event_text(plan.groups[step.index]));
   }
   for (const Culled& culled : plan.culled) text += fmt::format("   x  {}: {}\n", culled.pass, culled.reason);
   return text;
@@ -127,6 +142,7 @@ std::string barriers_text(const PlanData& plan) {
       pending += barrier_group_text(plan, plan.groups[step.index], "  ");
       continue;
     }
+    if (step.kind == StepKind::set) continue;
     if (!pending.empty()) text += fmt::format("before {}\n{}", plan.passes[step.index].name, pending);
     pending.clear();
   }

@@ -27,6 +27,7 @@ std::string text_of(const Facts& facts, const PlanData& plan) {
     text += fmt::format("              {} where the device has lazily allocated memory, for {} that no rendering loads or stores\n",
                         mib(facts.heap_beside_lazy_bytes), mib(facts.lazy_bytes));
   text += fmt::format("  barriers  {} in {}, {} of them blunt\n", facts.barriers, counted(facts.barrier_calls, "call"), facts.all_commands);
+  if (facts.events > 0) text += fmt::format("              {} of the calls wait for events that are set earlier\n", facts.events);
   text += fmt::format("  order     {}; {} pairs of passes are ordered, {} have to be\n", facts.order.method, facts.order.ordered_pairs,
                       facts.order.needed_pairs);
   for (const auto& point : facts.order.frontier) text += fmt::format("              {} groups at {}\n", point.groups, mib(point.bytes));

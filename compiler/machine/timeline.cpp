@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "dsl/check_macro.h"
 
@@ -32,8 +33,11 @@ struct Unroller {
     uint32_t event;
   };
   std::vector<Signalled> signals = {};  // of all frames
-  std::vector<bool> begun = {};         // by program resource: used in this frame
-  std::vector<bool> used = {};          // by program resource: by some pass of the plan
+  // A split group is two events an element: the first has its first scope and the transition, the second its second scope.
+  enum class Part : uint8_t { whole, set, awaited } part = Part::whole;
+  std::map<Index, std::vector<uint32_t>> set = {};  // by plan group: first events that are not awaited yet
+  std::vector<bool> begun = {};                     // by program resource: used in this frame
+  std::vector<bool> used = {};                      // by program resource: by some pass of the plan
 
   const ResourceCells& cells_of(uint32_t resource) const { return in.cells.resources[resource]; }
   const dsl::Resource& row(uint32_t resource) const { return in.graph.resources.rows[resource]; }
@@ -207,7 +211,20 @@ struct Unroller {
     Event event = scope_event(fmt::format("barrier of group {} on {} in frame {}", group, what, frame), barrier.src_stages, barrier.src_accesses,
                               barrier.dst_stages, barrier.dst_accesses);
     event.group = group;
+    if (part == Part::set) event.dst = event.dst_exact = event.dst_accesses = 0;
+    if (part == Part::awaited) event.src = event.src_exact = event.src_accesses = 0;
     return event;
+  }
+
+  // In the order of the group's elements, so that the second events find their first ones.
+  void add_element(Event event, Index group) {
+    if (part == Part::awaited) {
+      event.after = {set[group].front()};
+      set[group].erase(set[group].begin());
+      event.image = false;  // the layout has changed
+    }
+    add(std::move(event));
+    if (part == Part::set) set[group].push_back(static_cast<uint32_t>(out.events.size() - 1));
   }
 
   // False if the barrier is not recorded.
@@ -230,13 +247,15 @@ struct Unroller {
     event.cells = std::move(cells);
     event.old_layout = from, event.new_layout = to;
     event.family = family(resource, queue);
-    if (take_half(barrier, event)) add(std::move(event));
+    if (take_half(barrier, event)) add_element(std::move(event), group);
   }
 
-  void add_group(Index index) {
+  void add_group(const Step& step) {
+    const Index index = step.index;
     const BarrierGroup& group = in.plan.groups[index];
+    part = group.event == kNone ? Part::whole : step.kind == StepKind::set ? Part::set : Part::awaited;
     for (const MemoryBarrier& barrier : in.plan.memory_barriers.subspan(group.first_memory, group.memory_count))
-      add(barrier_event(barrier, index, "all memory"));
+      add_element(barrier_event(barrier, index, "all memory"), index);
     for (const BufferBarrier& barrier : in.plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count)) {
       const uint32_t resource = in.program_resource[barrier.buffer.resource];
       add_ranged(barrier, index, resource, physical(resource, region_of(in.plan, in.cells, cells_of(resource), barrier.bytes), barrier.buffer.age),
@@ -282,7 +301,7 @@ struct Unroller {
       const Step& step = in.plan.steps[s];
       first_in_rendering = !same_rendering(batch, s, s - 1), last_in_rendering = !same_rendering(batch, s, s + 1);
       if (first_in_rendering) ++renderings;
-      step.kind == StepKind::pass ? add_pass(step.index) : add_group(step.index);
+      step.kind == StepKind::pass ? add_pass(step.index) : add_group(step);
     }
     for (const Signal& signal : in.plan.signals.subspan(batch.first_signal, batch.signal_count)) add_signal(signal);
     queue = 0;

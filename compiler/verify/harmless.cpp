@@ -62,6 +62,22 @@ bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) 
   return false;
 }
 
+// What uses nothing that the group's barriers name is ordered by others.
+std::string Harmless::moved(Index group, Index first_step, Index last_step) const {
+  const BarrierGroup& row = plan_.groups[group];
+  if (row.memory_count != 0) return "";
+  for (Index s = first_step; s <= last_step; ++s) {
+    if (plan_.steps[s].kind != StepKind::pass) continue;
+    for (const Access& access : accesses_of(plan_.steps[s].index)) {
+      for (const ImageBarrier& barrier : plan_.image_barriers.subspan(row.first_image, row.image_count))
+        if (barrier.image == access.ref && meet(barrier.range, access.range)) return "";
+      for (const BufferBarrier& barrier : plan_.buffer_barriers.subspan(row.first_buffer, row.buffer_count))
+        if (barrier.buffer == access.ref) return "";
+    }
+  }
+  return "event moved over passes that it is not about";
+}
+
 // ---- contents and memory --------------------------------------------------------------------------------------------------
 
 bool Harmless::draws_to(const Pass& pass, Index attachment) const {

@@ -27,6 +27,8 @@ class Harmless {
   std::string released_earlier(Index release) const;
   // The passes of two steps change places; none stands between them.
   std::string exchanged(Index first_step, Index second_step) const;
+  // A half of the split group is moved over these steps.
+  std::string moved(Index group, Index first_step, Index last_step) const;
 
  private:
   std::span<const Access> accesses_of(Index pass) const {

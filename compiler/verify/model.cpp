@@ -150,11 +150,19 @@ void add_group(Model& model, const Extents& extents, uint32_t index, uint32_t qu
   const BarrierGroup& group = plan.groups[index];
   model.groups.emplace_back();
   model.groups.back().queue = queue;
-  model.groups.back().plan_group = index;
+  if (group.event == kNone) model.groups.back().plan_group = index;
   for (uint32_t i = group.first_memory; i < group.first_memory + group.memory_count; ++i)
     add_scope(model, common_scope(plan.memory_barriers[i], ScopeKind::memory, i, index, queue));
   for (uint32_t i = group.first_image; i < group.first_image + group.image_count; ++i) add_image_scope(model, i, index);
   for (uint32_t i = group.first_buffer; i < group.first_buffer + group.buffer_count; ++i) add_buffer_scope(model, extents, i, index);
+}
+
+// The second half of a split group: one of the groups of this batch is the first.
+void add_awaited(Model& model, uint32_t set_by, uint32_t queue) {
+  model.groups.emplace_back();
+  model.groups.back().kind = GroupKind::awaited;
+  model.groups.back().queue = queue;
+  model.groups.back().set_by = set_by;
 }
 
 void add_waits(Model& model, uint32_t index, const Batch& batch) {
@@ -188,11 +196,18 @@ void add_batch(Model& model, const Extents& extents, uint32_t index) {
   const Plan& plan = model.input->plan;
   const Batch& batch = plan.batches[index];
   const auto add_step = [&](bool is_pass, size_t at) { model.steps.push_back({is_pass, static_cast<uint32_t>(at), index}); };
+  std::map<uint32_t, uint32_t> set;  // by plan group: its first half
   if (batch.wait_count != 0) add_waits(model, index, batch), add_step(false, model.groups.size() - 1);
   for (uint32_t s = batch.first_step; s < batch.first_step + batch.step_count; ++s) {
     const Step& step = plan.steps[s];
-    if (step.kind == StepKind::barriers) {
-      add_group(model, extents, step.index, batch.queue);
+    if (step.kind != StepKind::pass) {
+      const bool split = plan.groups[step.index].event != kNone;
+      if (split && step.kind == StepKind::barriers)
+        add_awaited(model, set.at(step.index), batch.queue);
+      else
+        add_group(model, extents, step.index, batch.queue);
+      if (split && step.kind == StepKind::set)
+        model.groups.back().kind = GroupKind::set, set[step.index] = static_cast<uint32_t>(model.groups.size() - 1);
       add_step(false, model.groups.size() - 1);
       continue;
     }
@@ -207,7 +222,7 @@ void number_alike(Model& model) {
   using Row = std::tuple<uint32_t, Stages, Stages>;
   std::map<std::tuple<GroupKind, uint32_t, std::vector<Row>>, uint32_t> numbers;
   for (GroupNode& group : model.groups) {
-    if (group.kind == GroupKind::barriers) continue;
+    if (group.kind != GroupKind::waits && group.kind != GroupKind::signals) continue;
     std::vector<Row> rows;
     for (const uint32_t id : group.scopes) rows.emplace_back(model.scopes[id].other, model.scopes[id].raw_src, model.scopes[id].raw_dst);
     group.alike = numbers.try_emplace({group.kind, group.queue, std::move(rows)}, static_cast<uint32_t>(numbers.size())).first->second;

@@ -74,8 +74,9 @@ struct ExecutionClass {
   bool sole = true;
 };
 
-// Signals stand at the end of their batch, waits at its beginning.
-enum class GroupKind : uint8_t { barriers, waits, signals };
+// Signals stand at the end of their batch, waits at its beginning. The first scopes of a split group are those of where it is set, the second ones
+// those of where it is awaited.
+enum class GroupKind : uint8_t { barriers, waits, signals, set, awaited };
 struct GroupNode {
   GroupKind kind = GroupKind::barriers;
   uint32_t queue = 0;
@@ -85,6 +86,7 @@ struct GroupNode {
   StageSet src_earlier = 0, dst_later = 0;  // of all
   std::vector<uint32_t> memory;             // scopes of kind memory
   std::vector<uint32_t> handed_over;        // plan's acquires of buffers that a pair lets take over memory here
+  uint32_t set_by = kNone;                  // awaited: the group, of kind set, that has the scopes
   uint32_t alike = kNone;  // signals and waits: a number for those of the queue with the same stages and queues, whatever they count to
 };
 

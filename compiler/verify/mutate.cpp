@@ -53,6 +53,7 @@ class Mutator {
     each("hand-off", plan_.releases, [&](Index i) { release(i); });
     each("hand-off", plan_.acquires, [&](Index i) { acquire(i), clocks(i); });
     each("order", plan_.steps, [&](Index i) { order(i); });
+    each("event", plan_.steps, [&](Index i) { event(i); });
     each("placement", plan_.acquires, [&](Index i) { placement(i); });
     each("wait", plan_.waits, [&](Index i) { wait(i); });
     each("signal", plan_.signals, [&](Index i) { signal(i); });
@@ -340,6 +341,31 @@ class Mutator {
     if (!first || plan_.resources[resource].lazy || plan_.resources[resource].lifetime != Lifetime::transient) return;
     change(
         &Plan::resources, resource, [](Resource& r) { r.lazy = true; }, std::string(plan_.resources[resource].name) + " in lazily allocated memory");
+  }
+
+  // ---- events -------------------------------------------------------------------------------------------------------------
+
+  // Set in front of the passes that it follows, awaited behind those that it precedes.
+  void event(Index at) {
+    const Step step = plan_.steps[at];
+    if (step.kind == StepKind::pass || plan_.groups[step.index].event == kNone) return;
+    const auto batch = std::find_if(plan_.batches.begin(), plan_.batches.end(), [&](const Batch& b) { return at < b.first_step + b.step_count; });
+    const bool sets = step.kind == StepKind::set;
+    const Index begin = batch->first_step, end = batch->first_step + batch->step_count;
+    const auto is_pass = [&](Index s) { return plan_.steps[s].kind == StepKind::pass; };
+    Index to = at, passed = 0;
+    if (sets)
+      while (to > begin && (passed == 0 || is_pass(to - 1))) passed += is_pass(--to);
+    else
+      while (to + 1 < end && (passed == 0 || is_pass(to + 1))) passed += is_pass(++to);
+    if (passed == 0) return;
+    std::vector<Step> steps(plan_.steps.begin(), plan_.steps.end());
+    steps.erase(steps.begin() + at);
+    steps.insert(steps.begin() + to, step);
+    Plan mutant = plan_;
+    mutant.steps = steps;
+    judge(mutant, "event " + std::to_string(plan_.groups[step.index].event) + (sets ? " set earlier" : " awaited later"),
+          harmless_.moved(step.index, std::min(at, to), std::max(at, to)));
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------

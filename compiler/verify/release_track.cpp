@@ -194,7 +194,7 @@ void begin_frame(Replay& replay, ReleaseTrack& track) {
 }
 
 void pass_point(Replay& replay, ReleaseTrack& track, const GroupNode& group) {
-  if (!track.active || group.kind == GroupKind::waits) return;
+  if (!track.active || group.kind == GroupKind::waits || group.kind == GroupKind::set || group.kind == GroupKind::awaited) return;
   const uint32_t point = track.points[group.queue];
   if (point < track.at_point[group.queue].size())
     for (const uint32_t index : track.at_point[group.queue][point]) {

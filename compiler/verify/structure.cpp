@@ -106,6 +106,45 @@ void check_tables(const Plan& plan, Bounds& bounds) {
   }
 }
 
+// Both halves of a split group stand in one batch, on a queue that knows events (VUID-vkCmdSetEvent2-commandBuffer-cmdpool); neither VkEvent nor
+// event orders the host (VUID-vkCmdSetEvent2-srcStageMask-03827), no owner changes between the two, and the runtime adds nothing to them.
+void check_events(const Plan& plan, Bounds& bounds) {
+  std::vector<bool> taken(plan.groups.size());
+  const auto check_masks = [&](const auto& row) {
+    bounds.expect(((row.src_stages | row.dst_stages) & stage::host) == 0, "an event orders the host");
+    if constexpr (requires { row.src_queue; }) bounds.expect(row.src_queue == row.dst_queue, "an event changes an owner");
+  };
+  for (const BarrierGroup& group : plan.groups) {
+    if (group.event == kNone) continue;
+    bounds.expect(group.event < taken.size() && !taken[group.event], "two groups have one event, or there are not so many");
+    if (!bounds.good) return;
+    taken[group.event] = true;
+    std::ranges::for_each(plan.memory_barriers.subspan(group.first_memory, group.memory_count), check_masks);
+    std::ranges::for_each(plan.image_barriers.subspan(group.first_image, group.image_count), check_masks);
+    std::ranges::for_each(plan.buffer_barriers.subspan(group.first_buffer, group.buffer_count), check_masks);
+  }
+  for (const Acquire& acquire : plan.acquires)
+    bounds.expect(acquire.group == kNone || acquire.group >= plan.groups.size() || plan.groups[acquire.group].event == kNone,
+                  "memory changes hands in a group that is split");
+}
+
+void check_halves(const Plan& plan, Bounds& bounds) {
+  std::vector<uint32_t> set_in(plan.groups.size(), kNone), awaited_in(plan.groups.size(), kNone);  // by group: batch
+  for (uint32_t b = 0; b < plan.batches.size(); ++b)
+    for (const Step& step : plan.steps.subspan(plan.batches[b].first_step, plan.batches[b].step_count)) {
+      if (step.kind == StepKind::pass) continue;
+      const bool split = plan.groups[step.index].event != kNone;
+      bounds.expect(step.kind == StepKind::barriers || split, "a group that is not split is set");
+      if (!split) continue;
+      uint32_t& half = (step.kind == StepKind::set ? set_in : awaited_in)[step.index];
+      bounds.expect(half == kNone, "a half of a split group stands twice");
+      bounds.expect(step.kind == StepKind::set || set_in[step.index] == b, "an event is awaited that its batch has not set");
+      bounds.expect(plan.queues[plan.batches[b].queue].kind != QueueKind::transfer, "a transfer queue knows no events");
+      half = b;
+    }
+  bounds.expect(set_in == awaited_in, "an event is set and not awaited");
+}
+
 void check_steps(const Plan& plan, Bounds& bounds) {
   std::vector<uint32_t> passes(plan.passes.size()), groups(plan.groups.size());
   for (const Batch& batch : plan.batches) {
@@ -116,7 +155,7 @@ void check_steps(const Plan& plan, Bounds& bounds) {
       std::vector<uint32_t>& counts = step.kind == StepKind::pass ? passes : groups;
       bounds.expect(step.index < counts.size(), "a step names nothing");
       if (!bounds.good) return;
-      ++counts[step.index];
+      counts[step.index] += step.kind != StepKind::set;
     }
   }
   bounds.expect(std::all_of(passes.begin(), passes.end(), [](uint32_t n) { return n == 1; }), "a pass is not executed exactly once");
@@ -316,6 +355,8 @@ bool check_indices(const Input& input, Report& report) {
   if (bounds.good) check_bytes(input.plan, bounds);
   if (bounds.good) bounds.good = check_timelines(input.plan, report);
   if (bounds.good) check_steps(input.plan, bounds);
+  if (bounds.good) check_events(input.plan, bounds);
+  if (bounds.good) check_halves(input.plan, bounds);
   if (bounds.good) check_configuration(input, bounds);
   return bounds.good;
 }

@@ -300,7 +300,7 @@ void apply_to_cell(Replay& replay, const GroupNode& group, uint32_t cell, const 
   if (replay.history.proofs && state.layout == layout && scope.transfer == Ownership::none) state.without = {*transition, state.reads, state.writes};
   if (state.layout != layout) state.layout_scope = *transition;
   state.reads.clear();
-  state.writes = {transition_record(replay.history, scope, *transition)};
+  state.writes = {transition_record(replay.history, group, *transition)};
   state.writes.front().seen = replay.now() + 1;
   state.layout = layout;
 }

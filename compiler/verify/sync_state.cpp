@@ -9,7 +9,10 @@ namespace {
 
 const Proof kNoProof;
 
-// Execution after what `reach` and `own` cover goes on through the class.
+bool is_local(const std::vector<uint32_t>& local, uint32_t scope) { return std::find(local.begin(), local.end(), scope) != local.end(); }
+
+}  // namespace
+
 void chain(const History& history, const ExecutionClass& execution, const Reach& reach, StageSet own, Updates& updates) {
   const Scope& scope = history.model.scopes[execution.scope];
   const QueueReach& on = reach.queues.get(scope.queue);
@@ -26,13 +29,12 @@ void chain(const History& history, const ExecutionClass& execution, const Reach&
     if (scope.dst_later & ~on.settled & stage_bit(d)) updates.new_reach.push_back({d, *sources.proof});
 }
 
-bool is_local(const std::vector<uint32_t>& local, uint32_t scope) { return std::find(local.begin(), local.end(), scope) != local.end(); }
-
-// A group without effects on the record can be skipped without a look at its barriers.
 bool concerns(const GroupNode& group, const Reach& reach, StageSet own) {
   const QueueReach& on = reach.queues.get(group.queue);
   return ((on.stages | own) & group.src_earlier) && (group.dst_later & ~on.settled) != 0;
 }
+
+namespace {
 
 // ---- writes -----------------------------------------------------------------------------------------------------
 
@@ -47,13 +49,18 @@ bool is_rooted(const History& history, const std::vector<uint32_t>& covering, Wr
   return true;
 }
 
-void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
-  std::vector<uint32_t> covering = group.memory;
-  covering.insert(covering.end(), local.begin(), local.end());
+std::vector<uint32_t> covering(const GroupNode& group, const std::vector<uint32_t>& local) {
+  std::vector<uint32_t> scopes = group.memory;
+  scopes.insert(scopes.end(), local.begin(), local.end());
+  return scopes;
+}
+
+}  // namespace
+
+Updates effects(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, bool rooted, const WriteRecord& write) {
   Updates updates;
   updates.queue = group.queue;
-  const bool rooted = history.proofs && is_rooted(history, covering, write);
-  for (const uint32_t id : covering) {
+  for (const uint32_t id : covering(group, local)) {
     const Scope& scope = history.model.scopes[id];
     const bool first = makes_available(scope, write);
     const bool chained = write.available && (write.reach.stages(group.queue) & scope.src_earlier);
@@ -68,13 +75,18 @@ void apply(const History& history, const GroupNode& group, const std::vector<uin
   if (write.available && concerns(group, write.reach, 0))
     for (const ExecutionClass& execution : group.classes)
       if (!execution.sole || !is_local(local, execution.scope)) chain(history, execution, write.reach, 0, updates);
-  commit(history, updates, write);
+  return updates;
+}
+
+namespace {
+
+void apply(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, WriteRecord& write) {
+  const bool rooted = history.proofs && is_rooted(history, covering(group, local), write);
+  commit(history, effects(history, group, local, rooted, write), write);
   if (rooted) grow_root(write, group.queue);
 }
 
 // ---- reads ------------------------------------------------------------------------------------------------------
-
-StageSet own_stage(const GroupNode& group, const ReadFate& read) { return read.queue == group.queue ? stage_bit(read.stage) : 0; }
 
 // Where one barrier of the group alone waits for the read for the first time, all later proofs grow from it.
 bool is_rooted(const History& history, const GroupNode& group, StageSet own, ReadFate& read) {
@@ -147,6 +159,10 @@ void advance(const History& history, ReadFate& fate) {
     const GroupNode& group = history.model.groups[executed.group];
     if (group.kind == GroupKind::barriers)
       apply(history, group, fate);
+    else if (group.kind == GroupKind::set)
+      hold(history, executed.group, fate);
+    else if (group.kind == GroupKind::awaited)
+      await(history, group, fate);
     else if (!is_quiet(fate.reach, group))
       apply_semaphores(history, executed, fate);
   }
@@ -156,12 +172,20 @@ void advance(const History& history, WriteRecord& write) {
   for (; write.seen < history.executed.size(); ++write.seen) {
     const Executed& executed = history.executed[write.seen];
     const GroupNode& group = history.model.groups[executed.group];
-    if (group.kind != GroupKind::barriers) {
+    if (group.kind == GroupKind::waits || group.kind == GroupKind::signals) {
       if (!is_quiet(write.reach, group)) apply_semaphores(history, executed, write);
       continue;
     }
+    if (group.kind == GroupKind::awaited) {
+      await(history, group, write);
+      continue;
+    }
     const bool chained = write.available && concerns(group, write.reach, 0);
-    if (!group.memory.empty() || chained) apply(history, group, {}, write);
+    if (group.memory.empty() && !chained) continue;
+    if (group.kind == GroupKind::set)
+      hold(history, executed.group, {}, write);
+    else
+      apply(history, group, {}, write);
   }
 }
 
@@ -173,8 +197,12 @@ void advance(const History& history, CellState& state) {
 }
 
 void apply_to_writes(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, CellState& state) {
+  const auto index = static_cast<uint32_t>(&group - history.model.groups.data());
   for (WriteRecord& write : state.writes) {
-    apply(history, group, local, write);
+    if (group.kind == GroupKind::set)
+      hold(history, index, local, write);
+    else
+      apply(history, group, local, write);
     ++write.seen;
   }
 }
@@ -188,7 +216,8 @@ ReadRecord make_read(History& history, Site site, uint32_t pass, uint32_t frame,
   return {queue, stage, pass, frame, order, false, newest};
 }
 
-WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id) {
+WriteRecord transition_record(const History& history, const GroupNode& group, uint32_t scope_id) {
+  const Scope& scope = history.model.scopes[scope_id];
   WriteRecord write(scope.queue);
   write.scope = scope_id;
   write.available = true;
@@ -201,6 +230,10 @@ WriteRecord transition_record(const History& history, const Scope& scope, uint32
   if (history.proofs) {
     add_reach(scope, scope_id, {}, 0, updates.new_reach);
     add_visible(scope, scope_id, {}, updates.new_visible);
+  }
+  if (group.kind == GroupKind::set) {
+    hold(static_cast<uint32_t>(&group - history.model.groups.data()), std::move(updates), write.reach);
+    return write;
   }
   commit(history, updates, write);
   if (history.proofs) {

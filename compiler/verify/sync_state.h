@@ -7,6 +7,8 @@
 // write available if S and its accesses name it, and visible to exactly D x its destination accesses. A signal is a barrier whose second
 // scope is the semaphore, a wait one whose first scope is; both name all accesses.
 //
+// A split barrier does all this with what is known when its event is set, and it counts from where the event is awaited.
+//
 // Proofs stand beside the facts, see proof.h.
 //
 // Source of the rules: Vulkan 1.3, "Execution and Memory Dependencies", "Synchronization Scopes", "Availability, visibility", "Semaphores".
@@ -37,11 +39,13 @@ struct SignalReach {
   int64_t number = 0;  // counted through all frames, see number_of
   Proof proof;         // of all signals up to this one, with the share of its queue's root
 };
+struct Held;  // what a set event does when it is awaited, see sync_update.h
 struct Reach {
   ByQueue<QueueReach> queues;
-  std::vector<SignalReach> signals;            // by queue ascending numbers, each with a smaller proof than the one before
-  std::vector<std::pair<Site, Proof>> proofs;  // of stages that are not settled, beside the root
-  uint64_t quiet = 0;                          // by GroupNode::alike: signals and waits that say no more
+  std::vector<SignalReach> signals;               // by queue ascending numbers, each with a smaller proof than the one before
+  std::vector<std::pair<Site, Proof>> proofs;     // of stages that are not settled, beside the root
+  uint64_t quiet = 0;                             // by GroupNode::alike: signals and waits that say no more
+  std::vector<std::shared_ptr<const Held>> held;  // by events that are set and not yet awaited
   explicit Reach(uint32_t queue = 0) : queues(queue) {}
   StageSet stages(uint32_t queue) const { return queues.get(queue).stages; }
   const Proof& root(uint32_t queue) const { return queues.get(queue).root; }
@@ -137,8 +141,8 @@ void apply_to_writes(const History& history, const GroupNode& group, const std::
 bool in_source(const Scope& scope, uint32_t scope_id, const ReadRecord& read, Proof& proof);
 bool in_source(const Scope& scope, uint32_t scope_id, const WriteRecord& write, Proof& proof);
 
-// The state a layout transition leaves.
-WriteRecord transition_record(const History& history, const Scope& scope, uint32_t scope_id);
+// The state a layout transition leaves. That of a split group is ordered before nothing until it is awaited.
+WriteRecord transition_record(const History& history, const GroupNode& group, uint32_t scope_id);
 
 // Of facts that hold.
 Proof proof_of_reach(const Reach& reach, Site site);

@@ -24,6 +24,11 @@ struct Updates {  // on `queue`
   std::vector<NewVisible> new_visible;
 };
 
+struct Held {
+  uint32_t group = 0;  // of kind set
+  Updates updates;     // with whole proofs: the root may be another when they count
+};
+
 // The atom of the one bit of `raw` that stands for the stage or access; empty if none or several do.
 Proof stage_atom(uint32_t scope, AtomField field, Stages raw, uint32_t stage);
 Proof access_atom(uint32_t scope, AtomField field, Accesses raw, uint32_t access);
@@ -56,6 +61,22 @@ void set_root(Reach& reach, uint32_t queue, Proof root);
 
 // Neither another signal nor another wait of this kind says more, until the proofs of the record change where it looks.
 inline bool is_quiet(const Reach& reach, const GroupNode& group) { return group.alike < 64 && (reach.quiet >> group.alike & 1); }
+
+// Set and awaited events, see events.cpp.
+void hold(const History& history, uint32_t group, ReadFate& fate);
+void hold(const History& history, uint32_t group, const std::vector<uint32_t>& local, WriteRecord& write);
+void hold(uint32_t group, Updates updates, Reach& reach);
+void await(const History& history, const GroupNode& group, ReadFate& fate);
+void await(const History& history, const GroupNode& group, WriteRecord& write);
+
+// What barriers of a group do to a record, beside what it is before them. `own`: stages of reads that are no longer than that record.
+void chain(const History& history, const ExecutionClass& execution, const Reach& reach, StageSet own, Updates& updates);
+// `rooted`: the one barrier that makes the write available is its root already.
+Updates effects(const History& history, const GroupNode& group, const std::vector<uint32_t>& local, bool rooted, const WriteRecord& write);
+
+// A group without effects on the record can be skipped without a look at its barriers.
+bool concerns(const GroupNode& group, const Reach& reach, StageSet own);
+inline StageSet own_stage(const GroupNode& group, const ReadFate& read) { return read.queue == group.queue ? stage_bit(read.stage) : 0; }
 
 // A signal or wait, see semaphores.cpp.
 void apply_semaphores(const History& history, const Executed& executed, ReadFate& fate);

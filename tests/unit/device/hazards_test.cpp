@@ -50,6 +50,26 @@ TEST_F(Hazards, NothingIsReportedForTheCorrectFrames) {
   EXPECT_EQ(messages.size(), 0u) << all_messages();
 }
 
+TEST_F(Hazards, NothingIsReportedForEvents) {
+  test::Split t = test::split();
+  run(t.plan);
+  EXPECT_EQ(messages.size(), 0u) << all_messages();
+}
+
+TEST_F(Hazards, ReadBeforeTheEventIsAwaited) {
+  test::Split t = test::split();
+  std::swap(t.plan.steps[test::kAwaitStep], t.plan.steps[test::kAwaitStep + 1]);
+  run(t.plan);
+  expect("vkCmdCopyBuffer: Hazard READ_AFTER_WRITE");
+}
+
+TEST_F(Hazards, WriteAfterTheEventIsSet) {
+  test::Split t = test::split();
+  std::swap(t.plan.steps[test::kSetStep], t.plan.steps[test::kSetStep - 1]);
+  run(t.plan);
+  expect("vkCmdCopyBuffer: Hazard READ_AFTER_WRITE");
+}
+
 TEST_F(Hazards, ReadAfterWriteInOneCommandBuffer) {
   test::Counter t = test::counter();
   t.plan.groups[1].buffer_count = 0;  // state -> copy

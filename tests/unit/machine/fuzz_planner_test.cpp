@@ -42,7 +42,8 @@ std::optional<dsl::Program> load(const std::string& text, std::string* why = nul
 struct Question {
   std::vector<Kind> queues;
   bool irredundancy = false, run = false;
-  bool fold = true;  // renderings clear and resolve where they can
+  bool fold = true;    // renderings clear and resolve where they can
+  bool split = false;  // barriers with events
 };
 
 std::string first_divergence(const dsl::Program& program, const std::vector<uint32_t>& configuration, const PlanData& plan) {
@@ -64,7 +65,8 @@ std::string first_divergence(const dsl::Program& program, const std::vector<uint
 std::string judge(const dsl::Program& written, const Question& question) {
   compiler::PlanOptions folding;
   folding.fold = question.fold;
-  const dsl::Program program = compiler::fold_transfers(written, folding).program;
+  dsl::Program program = compiler::fold_transfers(written, folding).program;
+  program.split_barriers = question.split;
   for (const uint32_t rich : {0u, 1u}) {
     if (rich != 0 && program.features.empty()) continue;
     const std::vector<uint32_t> configuration(program.features.size(), rich);
@@ -109,7 +111,7 @@ TEST(PlannerFuzz, WideProgramsAreProvedAndRun) {
       continue;
     }
     ++accepted;
-    const Question question{kQueues[seed % 4], true, seed % 4 == 1 || is_long, seed % 3 != 0};
+    const Question question{kQueues[seed % 4], true, seed % 4 == 1 || is_long, seed % 3 != 0, seed / 4 % 2 == 1};
     const std::string failure = judge(*program, question);
     if (!failure.empty())
       ADD_FAILURE() << "seed " << seed << ", " << question.queues.size() << " queues: " << failure << "\n" << shrunk(text, question, failure);
@@ -127,7 +129,9 @@ TEST(PlannerFuzz, ShrunkProgramsStayRight) {
     ASSERT_TRUE(program) << entry.path();
     ++files;
     for (const std::vector<Kind>& queues : kQueues)
-      EXPECT_EQ(judge(*program, {queues, true, true}), "") << entry.path() << ", " << queues.size() << " queues";
+      for (const bool split : {false, true})
+        EXPECT_EQ(judge(*program, {queues, true, true, true, split}), "")
+            << entry.path() << ", " << queues.size() << " queues" << (split ? ", split" : "");
   }
   EXPECT_GT(files, 0u);
 }

@@ -189,6 +189,11 @@ TEST(Failures, OfEveryCallOfARasterFrame) {
   fail_every_call(t.plan.view(), t.result);
 }
 
+TEST(Failures, OfEveryCallOfAFrameWithEvents) {
+  test::Split t = test::split();
+  fail_every_call(t.plan.view(), t.result_a);
+}
+
 TEST(Failures, NameTheResourceAndTheCall) {
   test::ClearAndCopy t = test::clear_and_copy();
   std::string log;

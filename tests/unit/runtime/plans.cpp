@@ -197,4 +197,39 @@ Aliased aliased() {
   return t;
 }
 
+Split split() {
+  Split t;
+  TestPlan& p = t.plan;
+  const Index bytes = p.constant(256);
+  t.a = p.buffer("a", bytes, kCopyDst | kCopySrc), t.b = p.buffer("b", bytes, kCopyDst | kCopySrc);
+  t.result_a = p.buffer("result_a", bytes, kCopyDst, Lifetime::readback), t.result_b = p.buffer("result_b", bytes, kCopyDst, Lifetime::readback);
+  const auto fill = [&](std::string_view name, Index buffer, uint32_t word) {
+    Transfer row;
+    row.kind = TransferKind::fill, row.dst = {buffer, 0}, row.value.word[0] = word;
+    p.transfer(name, {row}, {touches({buffer, 0}, stage::clear, access::transfer_write, Layout::undefined, true)});
+  };
+  const auto copy = [&](std::string_view name, Index from, Index to) {
+    Transfer row;
+    row.kind = TransferKind::copy_buffer, row.src = {from, 0}, row.dst = {to, 0};
+    p.transfer(name, {row},
+               {touches({from, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
+                touches({to, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
+  };
+  const auto reused = [](Index buffer) { return buffer_barrier({buffer, 0}, stage::copy, access::none, stage::clear, access::transfer_write); };
+  const auto filled = [](Index buffer) {
+    return buffer_barrier({buffer, 0}, stage::clear, access::transfer_write, stage::copy, access::transfer_read);
+  };
+  p.barriers({}, {reused(t.a), reused(t.b)});
+  fill("fill a", t.a, 5);
+  p.barriers({}, {filled(t.a)});
+  p.groups.back().event = 0, p.steps.back().kind = StepKind::set;
+  fill("fill b", t.b, 6);
+  p.steps.push_back({StepKind::barriers, kSplitGroup});
+  copy("copy a", t.a, t.result_a);
+  p.barriers({}, {filled(t.b)});
+  copy("copy b", t.b, t.result_b);
+  p.barriers({}, {to_host(t.result_a), to_host(t.result_b)});
+  return t;
+}
+
 }  // namespace rg::test

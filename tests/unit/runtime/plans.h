@@ -68,4 +68,13 @@ struct Aliased {
 };
 Aliased aliased();
 
+// a and b are filled and copied to the host. What the fill of b needs not wait for, the copy of a does not wait for either: its barrier is split.
+//   steps: 0 barriers  1 fill a  2 set a  3 fill b  4 await a  5 copy a  6 barriers of b  7 copy b  8 results -> host
+struct Split {
+  TestPlan plan;
+  Index a = 0, b = 0, result_a = 0, result_b = 0;
+};
+inline constexpr Index kSplitGroup = 1, kSetStep = 2, kAwaitStep = 4;
+Split split();
+
 }  // namespace rg::test

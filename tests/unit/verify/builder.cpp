@@ -284,6 +284,13 @@ void Builder::transfer_barrier(dsl::ResourceId id, Index from, Index to, Layout 
   plan.buffer_barriers.back().src_queue = from, plan.buffer_barriers.back().dst_queue = to;
 }
 
+Index Builder::split() {
+  const auto is_split = [](const BarrierGroup& group) { return group.event != kNone; };
+  plan.groups.back().event = static_cast<Index>(std::count_if(plan.groups.begin(), plan.groups.end(), is_split));
+  plan.steps.back().kind = StepKind::set;
+  return static_cast<Index>(plan.groups.size() - 1);
+}
+
 Plan Builder::view() {
   if (plan.batches.empty()) plan.batches = {{}};
   close_batch();

@@ -129,6 +129,10 @@ struct Builder {
   // From undefined, waiting for nothing.
   void start(dsl::ResourceId id, Layout to, Stages d, Accesses da) { image_barrier(id, Layout::undefined, to, 0, 0, d, da); }
 
+  // The group of the last barrier becomes split: where it stood its event is set. Gives the group.
+  Index split();
+  void await(Index group) { plan.steps.push_back({StepKind::barriers, group}); }
+
   Index constant(int64_t value);
   dsl::ExprId program_constant(int64_t value);
   Plan view();

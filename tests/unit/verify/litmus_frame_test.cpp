@@ -62,7 +62,7 @@ void history(Builder& b, dsl::ResourceId id, const Boundary& state_of_all) {
   b.boundary(id, older, older);
 }
 
-const Litmus kCases[] = {
+const Litmus kFrameCases[] = {
     // ---- versions ----
     {"PassesSwapped",
      "A read sees the version that program order gives it",
@@ -409,7 +409,7 @@ const Litmus kCases[] = {
 
 class FrameLitmus : public ::testing::TestWithParam<Litmus> {};
 TEST_P(FrameLitmus, IsDecided) { decide(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Litmus, FrameLitmus, ::testing::ValuesIn(kCases), litmus_name);
+INSTANTIATE_TEST_SUITE_P(Litmus, FrameLitmus, ::testing::ValuesIn(kFrameCases), litmus_name);
 
 }  // namespace
 }  // namespace rg::verify

@@ -7,7 +7,7 @@ namespace {
 constexpr auto kTests = stage::early_fragment_tests | stage::late_fragment_tests;
 constexpr auto kDepthWrite = access::depth_stencil_attachment_write, kDepthRead = access::depth_stencil_attachment_read;
 
-const Litmus kCases[] = {
+const Litmus kImageCases[] = {
     {"SampleAfterStorageWrite",
      "Layout transition inside the memory dependency",
      {},
@@ -446,7 +446,7 @@ const Litmus kCases[] = {
 
 class ImageLitmus : public ::testing::TestWithParam<Litmus> {};
 TEST_P(ImageLitmus, IsDecided) { decide(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Litmus, ImageLitmus, ::testing::ValuesIn(kCases), litmus_name);
+INSTANTIATE_TEST_SUITE_P(Litmus, ImageLitmus, ::testing::ValuesIn(kImageCases), litmus_name);
 
 }  // namespace
 }  // namespace rg::verify

@@ -4,7 +4,7 @@
 namespace rg::verify {
 namespace {
 
-const Litmus kCases[] = {
+const Litmus kMemoryCases[] = {
     {"ReadAfterWriteOrdered",
      "Memory dependency: availability of the first access scope, visibility to the second",
      {},
@@ -438,7 +438,7 @@ const Litmus kCases[] = {
 
 class MemoryLitmus : public ::testing::TestWithParam<Litmus> {};
 TEST_P(MemoryLitmus, IsDecided) { decide(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Litmus, MemoryLitmus, ::testing::ValuesIn(kCases), litmus_name);
+INSTANTIATE_TEST_SUITE_P(Litmus, MemoryLitmus, ::testing::ValuesIn(kMemoryCases), litmus_name);
 
 }  // namespace
 }  // namespace rg::verify

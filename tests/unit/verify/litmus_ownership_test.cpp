@@ -4,7 +4,7 @@
 namespace rg::verify {
 namespace {
 
-const Litmus kCases[] = {
+const Litmus kOwnershipCases[] = {
     {"OwnershipTransferred", "Queue Family Ownership Transfer: release, semaphore, acquire", {}, [](Builder& b) { moved_image(b); }},
     {"TransferOfBuffer",
      "Queue Family Ownership Transfer: buffers alike",
@@ -306,7 +306,7 @@ const Litmus kCases[] = {
 
 class OwnershipLitmus : public ::testing::TestWithParam<Litmus> {};
 TEST_P(OwnershipLitmus, IsDecided) { decide(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Litmus, OwnershipLitmus, ::testing::ValuesIn(kCases), litmus_name);
+INSTANTIATE_TEST_SUITE_P(Litmus, OwnershipLitmus, ::testing::ValuesIn(kOwnershipCases), litmus_name);
 
 }  // namespace
 }  // namespace rg::verify

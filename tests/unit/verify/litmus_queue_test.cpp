@@ -4,7 +4,7 @@
 namespace rg::verify {
 namespace {
 
-const Litmus kCases[] = {
+const Litmus kQueueCases[] = {
     {"SignalThenWait",
      "Semaphore signal makes all memory accesses of its first scope available; wait makes them visible to its second",
      {},
@@ -342,7 +342,7 @@ const Litmus kCases[] = {
 
 class QueueLitmus : public ::testing::TestWithParam<Litmus> {};
 TEST_P(QueueLitmus, IsDecided) { decide(GetParam()); }
-INSTANTIATE_TEST_SUITE_P(Litmus, QueueLitmus, ::testing::ValuesIn(kCases), litmus_name);
+INSTANTIATE_TEST_SUITE_P(Litmus, QueueLitmus, ::testing::ValuesIn(kQueueCases), litmus_name);
 
 }  // namespace
 }  // namespace rg::verify

@@ -33,6 +33,7 @@ struct Planned {
 };
 Planned plan_random(uint64_t seed, const RandomShape& shape, const std::vector<Kind>& queues = kQueues[0]) {
   Planned planned{make_random_program(seed, shape), {}};
+  planned.program.split_barriers = seed / 4 % 2 == 1;
   compiler::PlanOptions options;
   options.queues = queues;
   planned.frame = compiler::plan_frame(planned.program, kGraph, {}, options);
