@@ -208,15 +208,17 @@ class Dropper {
 
   // After all that comes before the barrier on the ways that facts and releases rest on.
   void find_set_slots() {
-    std::vector<uint32_t> recorded(order_.scopes.size());  // by scope: how many points have to be
+    // By scope: what has to be recorded, in halves of points. Point p is at 2 p, what follows it up to the next point at 2 p + 1.
+    std::vector<uint32_t> recorded(order_.scopes.size());
     for (uint32_t fact = 0; fact < facts_.size(); ++fact)
       note_way(order_.sources[facts_[fact].source], std::span(atoms_).subspan(rests_on_[fact].first, rests_on_[fact].count), recorded);
     for (const auto& [source, way] : ways_of_releases_) note_way(order_.sources[source], way, recorded);
     for (uint32_t s = 0; s < order_.scopes.size(); ++s) {
       const SyncScope& scope = order_.scopes[s];
       if (scope.kind != SyncKind::barrier || scope.gone) continue;
-      const uint32_t first = order_.point_of_slot(first_slot_of_batch(scope.slot)), needed = std::max(recorded[s], first);
-      sync_.groups[scope.slot][scope.index].set_slot = scope.slot - (scope.point - std::min(scope.point, needed));
+      sync_.groups[scope.slot][scope.index].set = {scope.slot, false};
+      const uint32_t place = std::max(recorded[s], 2 * order_.point_of_slot(first_slot_of_batch(scope.slot)));
+      if (place < 2 * scope.point) sync_.groups[scope.slot][scope.index].set = {scope.slot - (scope.point - place / 2), place % 2 == 1};
     }
   }
   // Atoms of a way stand from its target to its source.
@@ -226,8 +228,8 @@ class Dropper {
       if (i + 1 < way.size() && way[i + 1].scope == scope) continue;
       const bool is_source = source.kind == SyncSource::Kind::transition && source.scope == scope;
       if (i + 1 == way.size() && is_source) continue;
-      const uint32_t before = i + 1 < way.size() ? order_.scopes[way[i + 1].scope].point + 1 : source.after;
-      recorded[scope] = std::max(recorded[scope], before);
+      const uint32_t place = i + 1 < way.size() ? 2 * order_.scopes[way[i + 1].scope].point + 1 : 2 * source.after;
+      recorded[scope] = std::max(recorded[scope], place);
     }
   }
   uint32_t first_slot_of_batch(uint32_t slot) const {

@@ -49,25 +49,28 @@ void emit_culled(const PlanParts& parts, PlanData& plan) {
     if (!parts.liveness.live[pass]) plan.culled.push_back({intern(parts.frame.pass(pass).name), intern(parts.liveness.reasons[pass])});
 }
 
-// What stands in a slot: events are set before its barriers, and waited for behind them, so that neither goes on after the other.
+// What stands in a slot: events are awaited behind its barriers, so that neither goes on after the other, and set in front of them all, or behind
+// them where they go on after them.
 class SlotSteps {
  public:
-  explicit SlotSteps(const PlanParts& parts) : groups_(groups_of_slots(parts)), set_(groups_.size()), awaited_(groups_.size()) {
+  explicit SlotSteps(const PlanParts& parts)
+      : groups_(groups_of_slots(parts)), set_before_(groups_.size()), awaited_(groups_.size()), set_behind_(groups_.size()) {
     auto group = static_cast<Index>(groups_.size() - static_cast<size_t>(std::count(groups_.begin(), groups_.end(), kNone)));
     for (const SplitGroup& split : parts.sync.splits) {
-      set_[split.set_slot].push_back(group);
+      (split.set.behind ? set_behind_ : set_before_)[split.set.slot].push_back(group);
       awaited_[split.wait_slot].push_back(group++);
     }
   }
   void emit(uint32_t slot, PlanData& plan) const {
-    for (const Index group : set_[slot]) plan.steps.push_back({StepKind::set, group});
+    for (const Index group : set_before_[slot]) plan.steps.push_back({StepKind::set, group});
     if (groups_[slot] != kNone) plan.steps.push_back({StepKind::barriers, groups_[slot]});
     for (const Index group : awaited_[slot]) plan.steps.push_back({StepKind::barriers, group});
+    for (const Index group : set_behind_[slot]) plan.steps.push_back({StepKind::set, group});
   }
 
  private:
   std::vector<Index> groups_;
-  std::vector<std::vector<Index>> set_, awaited_;  // by slot
+  std::vector<std::vector<Index>> set_before_, awaited_, set_behind_;  // by slot
 };
 
 void emit_steps(const PlanParts& parts, PlanData& plan) {

@@ -172,17 +172,18 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
   };
   for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
     for (const CellBarrier& b : parts.sync.groups[slot]) add(b, groups[slot], b.whole.empty() ? "" : fmt::format("; not split, because {}", b.whole));
+  const auto name = [&](uint32_t slot) { return groups[slot] == kNone ? "the end of its batch" : fmt::format("group {}", groups[slot]); };
   auto group = static_cast<Index>(groups.size() - static_cast<size_t>(std::count(groups.begin(), groups.end(), kNone)));
   for (const SplitGroup& split : parts.sync.splits) {
     for (const CellBarrier& b : split.barriers)
       add(b, group,
-          fmt::format(
-              "; split, set in front of group {} and awaited in front of group {}: what stands between is not waited for; `--no-split={}` would "
-              "make it whole",
-              groups[split.set_slot], groups[split.wait_slot], parts.frame.resource_of(b.cell).name));
+          fmt::format("; split, set {} {} and awaited at {}: what stands between is not waited for; `--no-split={}` would make it whole",
+                      split.set.behind ? "behind" : "in front of", name(split.set.slot), name(split.wait_slot),
+                      parts.frame.resource_of(b.cell).name));
     ++group;
   }
 }
+
 // Subjects "wait 0", "wait 1", ... as in the plan's table of waits.
 void explain_waits(const PlanParts& parts, const PlanData& plan, Decisions& out) {
   for (const Batch& batch : plan.batches)

@@ -48,14 +48,14 @@ class Splitter {
     if (b.dst_stages == 0) return "nothing on its queue waits for it";
     if (((b.src_stages | b.dst_stages) & stage::host) != 0) return "events do not order the host";
     if (options_.no_split.contains(frame_.resource_of(b.cell).name)) return "`--no-split` names it";
-    if (b.set_slot == slot) return "its sources stand right in front of its users";
+    if (b.set.slot == slot) return "its sources stand right in front of its users";
     return has_work_between(b, slot) ? "" : "nothing in between would be waited for";
   }
 
   // That a whole barrier would wait for.
   bool has_work_between(const CellBarrier& b, uint32_t slot) const {
     const Stages waited = with_earlier(b.src_stages);
-    return std::any_of(work_.begin() + b.set_slot, work_.begin() + slot, [&](Stages work) { return (work & waited) != 0; });
+    return std::any_of(work_.begin() + b.set.slot, work_.begin() + slot, [&](Stages work) { return (work & waited) != 0; });
   }
 
   static bool waits_anyway(const CellBarrier& other, Stages src, Stages dst) {
@@ -87,8 +87,8 @@ class Splitter {
         continue;
       }
       const auto same =
-          std::find_if(sync_.splits.begin() + first, sync_.splits.end(), [&](const SplitGroup& split) { return split.set_slot == barrier.set_slot; });
-      SplitGroup& split = same == sync_.splits.end() ? sync_.splits.emplace_back(SplitGroup{barrier.set_slot, slot, {}}) : *same;
+          std::find_if(sync_.splits.begin() + first, sync_.splits.end(), [&](const SplitGroup& split) { return split.set == barrier.set; });
+      SplitGroup& split = same == sync_.splits.end() ? sync_.splits.emplace_back(SplitGroup{barrier.set, slot, {}}) : *same;
       split.barriers.push_back(std::move(barrier));
     }
     group = std::move(whole);

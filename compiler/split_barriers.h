@@ -9,7 +9,7 @@
 //   - it hands on no memory (runtime/alias.h adds to those), changes no owner, and names no host; its queue can set events, as transfer queues
 //   cannot.
 //
-// `CellBarrier::set_slot` says how early: no derivation of a fact of obligations.h, of those the plan rests on, has anything in front of the barrier
+// `CellBarrier::set` says how early: no derivation of a fact of obligations.h, of those the plan rests on, has anything in front of the barrier
 // that is recorded later. So all facts still hold. What could be left out of the plan before was needed for a fact, and with halves apart less
 // follows than before: nothing becomes redundant. Both halves stand in one batch.
 #pragma once

@@ -31,6 +31,11 @@ namespace rg::compiler {
 // at a time changes hands by a release at the end of the one batch and an acquire in the other; images read on several queues at once, and history
 // used on several, are shared instead. A layout changes on the queue of the later users, or, where those are on several, at the end of the earlier
 // users' batch. A barrier that goes on after a wait names the stages that wait as its first scope.
+struct SetPlace {  // where an event is set: in front of the barriers of a slot, or right behind them
+  uint32_t slot = 0;
+  bool behind = false;
+  friend bool operator==(const SetPlace&, const SetPlace&) = default;
+};
 struct CellBarrier {
   uint32_t cell = 0;  // with its age
   Range range;        // as merged; equals the cell's at first
@@ -44,7 +49,7 @@ struct CellBarrier {
   uint32_t src_queue = kNone, dst_queue = kNone;  // change of owner
   bool dropped = false;                           // nothing needs it
   bool changes_queue = false;                     // half a change of owner
-  uint32_t set_slot = 0;                          // the first slot at whose beginning everything is recorded that has to be in its first scope
+  SetPlace set;                                   // the first place at which everything is recorded that has to be in its first scope
   std::string_view whole;                         // why it is not split where the target asks for it, a literal
   std::string_view reason;                        // "read after write", a literal
 };
@@ -73,9 +78,10 @@ struct MemorySignal {
 // Releases by program resource and queue: the batch whose signal is known to come after them.
 using OverAt = std::map<std::pair<uint32_t, uint32_t>, uint32_t>;
 
-// Barriers that are set at the beginning of one slot and waited for at that of another, see split_barriers.h.
+// Barriers that are set at one place and awaited behind the barriers of a slot, see split_barriers.h.
 struct SplitGroup {
-  uint32_t set_slot = 0, wait_slot = 0;
+  SetPlace set;
+  uint32_t wait_slot = 0;
   std::vector<CellBarrier> barriers;
 };
 

@@ -62,20 +62,26 @@ bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) 
   return false;
 }
 
-// What uses nothing that the group's barriers name is ordered by others.
-std::string Harmless::moved(Index group, Index first_step, Index last_step) const {
-  const BarrierGroup& row = plan_.groups[group];
-  if (row.memory_count != 0) return "";
+bool Harmless::names(const BarrierGroup& group, const Access& access) const {
+  for (const ImageBarrier& barrier : plan_.image_barriers.subspan(group.first_image, group.image_count))
+    if (barrier.image == access.ref && meet(barrier.range, access.range)) return true;
+  for (const BufferBarrier& barrier : plan_.buffer_barriers.subspan(group.first_buffer, group.buffer_count))
+    if (barrier.buffer == access.ref) return true;
+  return group.memory_count != 0;
+}
+
+// What uses nothing that the group's barriers name is ordered by others, and readers may be: any barrier goes on from their stages.
+std::string Harmless::moved(Index group, Index first_step, Index last_step, bool sets) const {
+  bool over_readers = false;
   for (Index s = first_step; s <= last_step; ++s) {
     if (plan_.steps[s].kind != StepKind::pass) continue;
     for (const Access& access : accesses_of(plan_.steps[s].index)) {
-      for (const ImageBarrier& barrier : plan_.image_barriers.subspan(row.first_image, row.image_count))
-        if (barrier.image == access.ref && meet(barrier.range, access.range)) return "";
-      for (const BufferBarrier& barrier : plan_.buffer_barriers.subspan(row.first_buffer, row.buffer_count))
-        if (barrier.buffer == access.ref) return "";
+      if (!names(plan_.groups[group], access)) continue;
+      if (!sets || access.writes) return "";
+      over_readers = true;
     }
   }
-  return "event moved over passes that it is not about";
+  return over_readers ? "event set in front of readers that other barriers order as well" : "event moved over passes that it is not about";
 }
 
 // ---- contents and memory --------------------------------------------------------------------------------------------------

@@ -28,12 +28,13 @@ class Harmless {
   // The passes of two steps change places; none stands between them.
   std::string exchanged(Index first_step, Index second_step) const;
   // A half of the split group is moved over these steps.
-  std::string moved(Index group, Index first_step, Index last_step) const;
+  std::string moved(Index group, Index first_step, Index last_step, bool sets) const;
 
  private:
   std::span<const Access> accesses_of(Index pass) const {
     return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count);
   }
+  bool names(const BarrierGroup& group, const Access& access) const;
   bool draws_to(const Pass& pass, Index attachment) const;
   bool leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const;
   bool depend(Index a, Index b, Index after) const;

@@ -365,7 +365,7 @@ class Mutator {
     Plan mutant = plan_;
     mutant.steps = steps;
     judge(mutant, "event " + std::to_string(plan_.groups[step.index].event) + (sets ? " set earlier" : " awaited later"),
-          harmless_.moved(step.index, std::min(at, to), std::max(at, to)));
+          harmless_.moved(step.index, std::min(at, to), std::max(at, to), sets));
   }
 
   // ---- order --------------------------------------------------------------------------------------------------------------

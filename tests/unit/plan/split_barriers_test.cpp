@@ -69,7 +69,7 @@ TEST(SplitBarriers, HaveReasons) {
   const FramePlan plan = planned(kFrame, true);
   EXPECT_EQ(
       reason_of(plan, "albedo", "split, set"),
-      "split, set in front of group 1 and awaited in front of group 2: what stands between is not waited for; `--no-split=albedo` would make it "
+      "split, set in front of group 1 and awaited at group 2: what stands between is not waited for; `--no-split=albedo` would make it "
       "whole\n");
   EXPECT_EQ(reason_of(plan, "soft", "not split"), "not split, because its sources stand right in front of its users\n");
   EXPECT_EQ(reason_of(plan, "glow", "not split"),
