@@ -183,7 +183,8 @@ struct PlanJson {
     return {{"src_queue", barrier.src_queue}, {"dst_queue", barrier.dst_queue}};
   }
 
-  Json group(const BarrierGroup& row) const {
+  Json group(Index index) const {
+    const BarrierGroup& row = plan.groups[index];
     const auto image = [&](const ImageBarrier& barrier) {
       Json json = {{"ref", ref(barrier.image)},
                    {"range", range(barrier.range)},
@@ -200,6 +201,7 @@ struct PlanJson {
       return json;
     };
     Json json = {
+        {"number", index},
         {"memory", slice(plan.memory_barriers, row.first_memory, row.memory_count, [&](const MemoryBarrier& barrier) { return scopes(barrier); })},
         {"images", slice(plan.image_barriers, row.first_image, row.image_count, image)},
         {"buffers", slice(plan.buffer_barriers, row.first_buffer, row.buffer_count, buffer)}};
@@ -210,7 +212,7 @@ struct PlanJson {
   Json step(const Step& row) const {
     if (row.kind == StepKind::pass) return {{"pass", plan.passes[row.index].name}};
     if (row.kind == StepKind::set) return {{"set", plan.groups[row.index].event}};
-    return {{"barriers", group(plan.groups[row.index])}};
+    return {{"barriers", group(row.index)}};
   }
 
   Json batch(const Batch& row) const {
