@@ -258,6 +258,7 @@ class Dropper {
   // Releases of a resource wait for all its last users together: what waits to and fro have ordered before one of them need not be named again.
   std::vector<Release> trimmed_releases(const std::vector<Line>& lines) {
     if (schedule_.queues.size() == 1) return sync_.releases;
+    ways_of_releases_.clear();
     find_last_slots(lines);
     std::map<uint32_t, std::vector<uint32_t>> uses;  // by resource
     for (const uint32_t use : last_uses_) uses[frame_.cells[order_.sources[use].cell].resource].push_back(use);

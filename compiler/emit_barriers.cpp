@@ -80,6 +80,10 @@ std::vector<Index> groups_of_slots(const PlanParts& parts) {
   return groups;
 }
 
+Index first_split_group(const std::vector<Index>& groups_of_slots) {
+  return static_cast<Index>(std::count_if(groups_of_slots.begin(), groups_of_slots.end(), [](Index group) { return group != kNone; }));
+}
+
 void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan) {
   std::vector<Acquire> acquires = parts.sync.acquires;  // by program resource, ascending
   const std::vector<Index> group_of_slot = groups_of_slots(parts);

@@ -55,7 +55,7 @@ class SlotSteps {
  public:
   explicit SlotSteps(const PlanParts& parts)
       : groups_(groups_of_slots(parts)), set_before_(groups_.size()), awaited_(groups_.size()), set_behind_(groups_.size()) {
-    auto group = static_cast<Index>(groups_.size() - static_cast<size_t>(std::count(groups_.begin(), groups_.end(), kNone)));
+    Index group = first_split_group(groups_);
     for (const SplitGroup& split : parts.sync.splits) {
       (split.set.behind ? set_behind_ : set_before_)[split.set.slot].push_back(group);
       awaited_[split.wait_slot].push_back(group++);

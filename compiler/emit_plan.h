@@ -43,8 +43,9 @@ void emit_passes(const PlanParts& parts, const PlanIndices& indices, Expressions
 void emit_work(const PlanParts& parts, const PlanIndices& indices, uint32_t pass, Expressions& exprs, PlanData& plan, Pass& row);
 // `position` of the pass in Schedule::order.
 void emit_rendering(const PlanParts& parts, const PlanIndices& indices, size_t position, Expressions& exprs, PlanData& plan, Pass& row);
-// By slot of the schedule: the plan's group; kNone: none.
+// By slot of the schedule: the plan's group; kNone: none. Split groups follow, in the order of SyncPlan::splits.
 std::vector<Index> groups_of_slots(const PlanParts& parts);
+Index first_split_group(const std::vector<Index>& groups_of_slots);
 void emit_barriers(const PlanParts& parts, const PlanIndices& indices, Expressions& exprs, PlanData& plan);
 
 }  // namespace rg::compiler

@@ -173,7 +173,7 @@ void explain_barriers(const PlanParts& parts, Decisions& out) {
   for (size_t slot = 0; slot < parts.sync.groups.size(); ++slot)
     for (const CellBarrier& b : parts.sync.groups[slot]) add(b, groups[slot], b.whole.empty() ? "" : fmt::format("; not split, because {}", b.whole));
   const auto name = [&](uint32_t slot) { return groups[slot] == kNone ? "the end of its batch" : fmt::format("group {}", groups[slot]); };
-  auto group = static_cast<Index>(groups.size() - static_cast<size_t>(std::count(groups.begin(), groups.end(), kNone)));
+  Index group = first_split_group(groups);
   for (const SplitGroup& split : parts.sync.splits) {
     for (const CellBarrier& b : split.barriers)
       add(b, group,

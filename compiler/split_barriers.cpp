@@ -25,7 +25,6 @@ class Splitter {
  public:
   Splitter(const Frame& frame, const Schedule& schedule, const PlanOptions& options, SyncPlan& sync)
       : frame_(frame), schedule_(schedule), options_(options), sync_(sync), work_(schedule.slots()) {
-    // Segments have the numbers of the slots before them; in closing slots nothing is recorded but barriers.
     for (const uint32_t pass : schedule.order) work_[schedule.slot_before(schedule.segment_of[pass])] |= work_of(frame, pass);
   }
 

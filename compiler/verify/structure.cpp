@@ -106,8 +106,8 @@ void check_tables(const Plan& plan, Bounds& bounds) {
   }
 }
 
-// Both halves of a split group stand in one batch, on a queue that knows events (VUID-vkCmdSetEvent2-commandBuffer-cmdpool); neither VkEvent nor
-// event orders the host (VUID-vkCmdSetEvent2-srcStageMask-03827), no owner changes between the two, and the runtime adds nothing to them.
+// Events are for graphics and compute queues (VUID-vkCmdSetEvent2-commandBuffer-cmdpool) and do not order the host
+// (VUID-vkCmdSetEvent2-srcStageMask-03827). Both halves stand in one batch, no owner changes between them, and the runtime adds nothing to them.
 void check_events(const Plan& plan, Bounds& bounds) {
   std::vector<bool> taken(plan.groups.size());
   const auto check_masks = [&](const auto& row) {
