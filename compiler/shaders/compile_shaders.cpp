@@ -131,6 +131,16 @@ void check_interfaces(const PassContext& context, const std::vector<ShaderUse>& 
   }
 }
 
+void check_outputs(const PassContext& context, const std::vector<ShaderUse>& uses, const std::vector<FrontEndResult>& results, ShaderPlaces& places,
+                   dsl::Diagnostics& diagnostics) {
+  std::set<size_t> checked;
+  for (const ShaderUse& use : uses)
+    for (const size_t job : use.jobs)
+      if (use.shader.stage == dsl::stage_fragment && checked.insert(job).second &&
+          !check_own_outputs(context, use, results[job].generic, places, diagnostics))
+        return;
+}
+
 // ---- the bundle
 
 class BundleBuilder {
@@ -315,6 +325,7 @@ ShaderBundle compile_shaders(const dsl::Program& program, dsl::GraphId graph_id,
     const std::vector<StageOutput> stages = good[i] ? stages_of_pass(work.passes[i], results) : std::vector<StageOutput>{};
     if (!stages.empty()) check_agreement(context, stages, places, diagnostics);
     if (!stages.empty()) check_interfaces(context, work.passes[i], results, places, diagnostics);
+    if (!stages.empty()) check_outputs(context, work.passes[i], results, places, diagnostics);
     if (!stages.empty()) check_features(context, work.passes[i], results, diagnostics);
     builder.bundle.passes.push_back(pass_shaders(context, stages));
   }

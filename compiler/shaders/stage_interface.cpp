@@ -1,5 +1,7 @@
 #include "compiler/shaders/stage_interface.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <spirv_cross.hpp>
 #include <tuple>
@@ -107,6 +109,22 @@ bool check_stage_interface(const PassContext& context, const ShaderUse& vertex, 
       error.note(dsl::DiagnosticKind::ShaderOfPass, vertex.shader.span, {context.pass.name});
     else
       error.note(dsl::DiagnosticKind::AccessUsedHere, places.word(vertex.path, written->name), {written->name});
+    return false;
+  }
+  return true;
+}
+
+bool check_own_outputs(const PassContext& context, const ShaderUse& fragment, const Words& words, ShaderPlaces& places,
+                       dsl::Diagnostics& diagnostics) {
+  const auto is_color = [](const dsl::Access& access) { return access.role == dsl::Role::color; };
+  const auto colors = std::count_if(context.pass.accesses.begin(), context.pass.accesses.end(), is_color);
+  for (const StageSlot& output : stage_slots(words, false)) {
+    if (output.location < static_cast<uint32_t>(colors)) continue;
+    const std::string has = colors == 0 ? "no colour" : fmt::format("{} colour{}", colors, colors == 1 ? "" : "s");
+    diagnostics
+        .report(dsl::DiagnosticKind::OwnOutput, places.word(fragment.path, output.name),
+                {output.name, std::to_string(output.location), context.pass.name, has})
+        .note(dsl::DiagnosticKind::ShaderOfPass, fragment.shader.span, {context.pass.name});
     return false;
   }
   return true;

@@ -1,4 +1,4 @@
-// Do the inputs of a fragment shader fit what the vertex shader before it writes?
+// Do the inputs of a fragment shader fit what the vertex shader before it writes, and its outputs the attachments?
 #pragma once
 
 #include "compiler/shaders/shader_work.h"
@@ -20,5 +20,9 @@ std::vector<StageSlot> stage_slots(const Words& words, bool inputs);
 // False after a report.
 bool check_stage_interface(const PassContext& context, const ShaderUse& vertex, const Words& vertex_words, const ShaderUse& fragment,
                            const Words& fragment_words, ShaderPlaces& places, dsl::Diagnostics& diagnostics);
+
+// Reports what the fragment shader writes to locations that no colour attachment of the pass has. False after a report.
+bool check_own_outputs(const PassContext& context, const ShaderUse& fragment, const Words& words, ShaderPlaces& places,
+                       dsl::Diagnostics& diagnostics);
 
 }  // namespace rg::compiler

@@ -257,6 +257,17 @@ TEST_F(CompileShaders, OutputNotWritten) {
   EXPECT_EQ(report().substr(0, report().find('\n')), "RG0409 passes.rg:6:5 colour `ids` of pass `draw` is written by no fragment shader");
 }
 
+TEST_F(CompileShaders, OutputThatNoAttachmentTakes) {
+  const auto hdr = image("hdr", Format::rgba16f);
+  raster({access(hdr, Mode::write, Role::color)}, "void main() { gl_Position = vec4(0); }\n",
+         "layout(location = 2) out vec3 bright;\nlayout(location = 3) out float unused;\nvoid main() { hdr = vec4(1); bright = vec3(2); }\n");
+  compile();
+  EXPECT_EQ(
+      report().substr(0, report().find('\n')),
+      "RG0418 draw.frag:1:31 the shader writes `bright` to location 2, and pass `draw` has 1 colour: what is written there is lost; declare another "
+      "`color`");
+}
+
 TEST_F(CompileShaders, ColourWithoutFragmentShader) {
   const auto hdr = image("hdr", Format::rgba16f);
   raster({access(hdr, Mode::write, Role::color)}, "void main() { gl_Position = vec4(0); }\n", "");
