@@ -86,10 +86,12 @@ struct RandomFrames : testing::Test {
 
   void run(uint64_t first, uint64_t count, uint32_t passes, const compiler::PlanOptions& plan, const GraphOptions& options) {
     for (uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) {
-      const RandomFrame frame = make_random_frame(seed, passes, kFrames);
+      RandomFrame frame = make_random_frame(seed, passes, kFrames);
+      if (split) frame.files["random.rg"].insert(0, "target vulkan 1.3 with split_barriers\n");
       const compiler::CompileResult result = compile_frame(frame, plan, seed);
       if (HasFailure()) return;
       prove(result, seed);
+      for (const BarrierGroup& group : result.graphs[0].plans[0].plan.groups) events += group.event != kNone;
       execute(*device, frame, result, options, seed);
       EXPECT_EQ(messages, "") << "seed " << seed << "\n" << frame.files.at("random.rg");
     }
@@ -102,6 +104,8 @@ struct RandomFrames : testing::Test {
 
   std::string messages;
   std::optional<Device> device;
+  bool split = false;  // barriers, with events
+  size_t events = 0;
 };
 
 TEST_F(RandomFrames, MeanWhatProgramOrderSays) {
@@ -117,6 +121,15 @@ TEST_F(RandomFrames, MeanTheSameWithoutAliasingAndReordering) {
 TEST_F(RandomFrames, ValidationStaysSilent) {
   open(true);
   if (device) run(1001, seeds() / 2, 14, {}, {});
+}
+
+TEST_F(RandomFrames, MeanTheSameWithSplitBarriers) {
+  split = true;
+  open(true);
+  if (device) run(2001, seeds(), 24, {.reorder = false}, {});
+  if (device) {
+    EXPECT_GT(events, 0u);
+  }
 }
 
 }  // namespace
