@@ -212,15 +212,17 @@ void add_memory(const Context& context, const BarrierGroup& group, const MemoryB
 }
 
 // The execution dependency of a barrier holds for all commands in its scopes, whatever image or buffer it names; the validation layer
-// follows it for that one resource only. While it watches, each is said once more without a resource. Orders nothing that was not ordered.
+// follows it for that one resource only. While it watches, each is said once more without a resource: that orders nothing that was not ordered, but
+// for copies where clears are, because of fills.
 void add_execution(GroupTable& table, Stages src, Stages dst) {
   for (const VkMemoryBarrier2& barrier : table.memory)
     if ((src & ~barrier.srcStageMask) == 0 && (dst & ~barrier.dstStageMask) == 0) return;
   if (src != 0 && dst != 0) table.memory.push_back({VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, nullptr, src, 0, dst, 0});
 }
-void spell_out_execution(GroupTable& table) {
-  for (const VkImageMemoryBarrier2& barrier : table.images) add_execution(table, barrier.srcStageMask, barrier.dstStageMask);
-  for (const VkBufferMemoryBarrier2& barrier : table.buffers) add_execution(table, barrier.srcStageMask, barrier.dstStageMask);
+void spell_out_execution(const Context& context, GroupTable& table) {
+  const auto add = [&](const auto& barrier) { add_execution(table, watched(context, barrier.srcStageMask), watched(context, barrier.dstStageMask)); };
+  for (const VkImageMemoryBarrier2& barrier : table.images) add(barrier);
+  for (const VkBufferMemoryBarrier2& barrier : table.buffers) add(barrier);
 }
 
 }  // namespace
@@ -239,7 +241,7 @@ void create_barriers(const Context& context, Sized& sized) {
     for (uint32_t phase = 0; phase < table.period; ++phase)
       add_images(context, sized, g, patches, phase, table), add_buffers(context, sized, g, phase, table);
     list_imports(context, sized, g, table);
-    if (context.device.validating) spell_out_execution(table);
+    if (context.device.validating) spell_out_execution(context, table);
     fill_infos(table);
   }
   if (context.poison) add_poison(context, sized);
