@@ -2,13 +2,16 @@
 
 #include <algorithm>
 
-#include "compiler/verify/roles.h"
+#include "compiler/verify/exchange.h"
 
 namespace rg::verify {
 namespace {
 
 constexpr Accesses kWriting = access::shader_write | access::shader_storage_write | access::color_attachment_write |
                               access::depth_stencil_attachment_write | access::transfer_write | access::host_write;
+
+constexpr Stages kTests = stage::early_fragment_tests | stage::late_fragment_tests;
+constexpr const char* kOwnClear = "tests against the pass's own clear";
 
 bool reads(const Access& row) { return !row.writes || (row.accesses & ~kWriting) != 0; }
 
@@ -32,6 +35,46 @@ std::string Harmless::without_contents(const ImageBarrier& barrier) {
   // A depth write brings its test along.
   const Accesses test = barrier.dst_accesses & access::depth_stencil_attachment_write ? access::depth_stencil_attachment_read : Accesses{0};
   return (barrier.dst_accesses & reading & ~test) == 0 && barrier.dst_accesses != 0 ? "contents that the next pass may overwrite" : "";
+}
+
+// Early tests come before late ones, which have to be named only where they have to see a write.
+std::string Harmless::unseen(Index image_barrier, Stages stage, Accesses access) const {
+  const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
+  const bool follows = stage == stage::late_fragment_tests && (barrier.dst_stages & stage::early_fragment_tests) != 0 &&
+                       (barrier.dst_accesses & access::depth_stencil_attachment_write) == 0;
+  const bool tests = follows || access == access::depth_stencil_attachment_read;
+  return tests && is_cleared_before_tests(image_barrier) ? kOwnClear : "";
+}
+
+// Whoever tests behind a clear waits for that, be it skipped or not, and so for what was before.
+bool Harmless::is_cleared_before_tests(Index image_barrier) const {
+  const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
+  const Resource& image = plan_.resources[barrier.image.resource];
+  const auto holds = [&](const Step& step) {
+    if (step.kind != StepKind::barriers) return false;
+    const BarrierGroup& group = plan_.groups[step.index];
+    return image_barrier >= group.first_image && image_barrier - group.first_image < group.image_count;
+  };
+  const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), holds);
+  bool all = (barrier.range.aspects & (aspect_depth | aspect_stencil)) != 0;
+  for (const uint32_t aspect : {aspect_depth, aspect_stencil})
+    for (uint32_t mip = barrier.range.mip; mip - barrier.range.mip < barrier.range.mips && mip < image.mips; ++mip)
+      for (uint32_t layer = barrier.range.layer; layer - barrier.range.layer < barrier.range.layers && layer < image.layers; ++layer)
+        if (barrier.range.aspects & aspect) all = all && is_cleared_before_tests(step, barrier.image, {aspect, mip, 1, layer, 1});
+  return all;
+}
+
+bool Harmless::is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const {
+  for (; from != plan_.steps.end(); ++from) {
+    if (from->kind != StepKind::pass || plan_.passes[from->index].rendering == kNone) continue;
+    const Rendering& rendering = plan_.renderings[plan_.passes[from->index].rendering];
+    for (const Index attachment : {rendering.depth, rendering.stencil}) {
+      if (attachment == kNone) continue;
+      const Attachment& row = plan_.attachments[attachment];
+      if (row.ref == image && meet(row.range, spot)) return row.load != LoadOp::load;
+    }
+  }
+  return plan_.resources[image.resource].lifetime == Lifetime::transient;
 }
 
 std::string Harmless::narrower(Index image_barrier, uint32_t mip, uint32_t layer) const {
@@ -60,6 +103,28 @@ bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) 
     }
   }
   return false;
+}
+
+// ---- semaphores -----------------------------------------------------------------------------------------------------------
+
+// Where an earlier stage waits as well, tests are named only so that they see what the pass clears.
+std::string Harmless::unwaited(Index wait, Stages stage) const {
+  const Wait& row = plan_.waits[wait];
+  if ((stage & kTests) == 0 || (row.stages & ~kTests) == 0) return "";
+  Index queue = kNone;
+  for (const Batch& batch : plan_.batches) {
+    if (wait >= batch.first_wait && wait - batch.first_wait < batch.wait_count) queue = batch.queue;
+    if (batch.queue != queue) continue;
+    for (const Step& step : plan_.steps.subspan(batch.first_step, batch.step_count))
+      if (step.kind == StepKind::pass && clears_depth(plan_.passes[step.index])) return kOwnClear;
+  }
+  return "";
+}
+
+bool Harmless::clears_depth(const Pass& pass) const {
+  if (pass.rendering == kNone) return false;
+  const auto clears = [&](Index attachment) { return attachment != kNone && plan_.attachments[attachment].load != LoadOp::load; };
+  return clears(plan_.renderings[pass.rendering].depth) || clears(plan_.renderings[pass.rendering].stencil);
 }
 
 // ---- contents and memory --------------------------------------------------------------------------------------------------
@@ -97,61 +162,12 @@ std::string Harmless::released_earlier(Index release) const {
 
 // ---- order ----------------------------------------------------------------------------------------------------------------
 
-std::string Harmless::exchanged(Index first_step, Index second_step) const {
-  const bool matters = depend(plan_.steps[first_step].index, plan_.steps[second_step].index, second_step + 1);
-  return matters ? "" : "exchanged passes that do not depend on each other";
-}
-
-// `after`: the first step behind both.
-bool Harmless::depend(Index a, Index b, Index after) const {
-  for (const Access& x : accesses_of(a))
-    for (const Access& y : accesses_of(b))
-      if (x.ref == y.ref && (x.writes || y.writes) && meet(x.range, y.range) && x.bytes == y.bytes && is_read(x.ref) &&
-          !(commutes_in(a, x.ref) && commutes_in(b, x.ref)) && !is_overwritten(a, b, x, y, after))
-        return true;
-  return false;
-}
-
-// Both write only, and so do all who come to it next, until one that always runs writes all of it: neither is missed.
-bool Harmless::is_overwritten(Index a, Index b, const Access& x, const Access& y, Index after) const {
-  if (needs_contents(a, x.ref) || needs_contents(b, x.ref)) return false;
-  for (Index s = after; s < plan_.steps.size(); ++s) {
-    if (plan_.steps[s].kind != StepKind::pass) continue;
-    for (const Access& row : accesses_of(plan_.steps[s].index)) {
-      if (row.ref != x.ref || (!meet(row.range, x.range) && !meet(row.range, y.range))) continue;
-      if (needs_contents(plan_.steps[s].index, x.ref)) return false;
-      if (row.range == x.range && row.range == y.range && row.bytes == x.bytes && runs_always(plan_.steps[s].index)) return true;
-    }
-  }
-  return false;
-}
-
-// By the program: in the plan, an attachment is loaded as well where the pass may be skipped.
-bool Harmless::needs_contents(Index pass, Ref ref) const {
-  const auto& accesses = graph_.passes.rows[program_pass_[pass]].accesses;
-  return std::any_of(accesses.begin(), accesses.end(), [&](const dsl::Access& access) {
-    return access.resource.value == program_resource_[ref.resource] && access.age == ref.age && access.mode != dsl::Mode::write;
-  });
-}
-
-bool Harmless::runs_always(Index pass) const {
-  const dsl::Pass& row = graph_.passes.rows[program_pass_[pass]];
-  return row.conditions.empty() && row.mip_limits.empty();
-}
-
-// All that the pass does to the resource is declared to commute.
-bool Harmless::commutes_in(Index pass, Ref ref) const {
-  if (pass >= program_pass_.size() || program_pass_[pass] >= graph_.passes.size()) return false;
-  const auto& accesses = graph_.passes.rows[program_pass_[pass]].accesses;
-  return std::all_of(accesses.begin(), accesses.end(),
-                     [&](const dsl::Access& access) { return access.resource.value != program_resource_[ref.resource] || commutes(access); });
-}
-
-// Two writers of contents that nobody reads may follow each other in any order.
-bool Harmless::is_read(Ref ref) const {
-  if (plan_.resources[ref.resource].lifetime != Lifetime::transient) return true;
-  return std::any_of(plan_.accesses.begin(), plan_.accesses.end(),
-                     [&](const Access& row) { return row.ref == ref && (row.accesses & ~kWriting) != 0; });
+std::string Harmless::exchanged(Index step) const {
+  std::vector<uint32_t> passes;
+  for (Index s = step; s < plan_.steps.size(); ++s)
+    if (plan_.steps[s].kind == StepKind::pass) passes.push_back(program_pass_[plan_.steps[s].index]);
+  const std::vector<uint32_t> rest(passes.begin() + 2, passes.end());
+  return may_exchange(program_, graph_, passes[0], passes[1], rest) ? "exchanged passes that do not depend on each other" : "";
 }
 
 }  // namespace rg::verify

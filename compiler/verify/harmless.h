@@ -14,37 +14,38 @@ namespace rg::verify {
 class Harmless {
  public:
   // All outlive it.
-  Harmless(const dsl::Graph& graph, const Plan& plan, const std::vector<uint32_t>& program_pass, const std::vector<uint32_t>& program_resource)
-      : graph_(graph), plan_(plan), program_pass_(program_pass), program_resource_(program_resource) {}
+  Harmless(const dsl::Program& program, dsl::GraphId graph, const Plan& plan, const std::vector<uint32_t>& program_pass)
+      : program_(program), graph_(program.graphs[graph]), plan_(plan), program_pass_(program_pass) {}
 
   // The barrier discards what it keeps now.
   static std::string without_contents(const ImageBarrier& barrier);
+  // The barrier's second scope goes without a stage, or an access.
+  std::string unseen(Index image_barrier, Stages stage, Accesses access) const;
+  // The wait goes without a stage.
+  std::string unwaited(Index wait, Stages stage) const;
   // The barrier's range goes without this subresource.
   std::string narrower(Index image_barrier, uint32_t mip, uint32_t layer) const;
   // The attachment does not store.
   std::string not_stored(Index attachment) const;
   // The release claims to stand a point earlier.
   std::string released_earlier(Index release) const;
-  // The passes of two steps change places; none stands between them.
-  std::string exchanged(Index first_step, Index second_step) const;
+  // The pass of this step and the next one change places.
+  std::string exchanged(Index step) const;
 
  private:
   std::span<const Access> accesses_of(Index pass) const {
     return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count);
   }
+  bool clears_depth(const Pass& pass) const;
+  bool is_cleared_before_tests(Index image_barrier) const;
+  bool is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const;
   bool draws_to(const Pass& pass, Index attachment) const;
   bool leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const;
-  bool depend(Index a, Index b, Index after) const;
-  bool is_overwritten(Index a, Index b, const Access& x, const Access& y, Index after) const;
-  bool needs_contents(Index pass, Ref ref) const;
-  bool runs_always(Index pass) const;
-  bool commutes_in(Index pass, Ref ref) const;
-  bool is_read(Ref ref) const;
 
+  const dsl::Program& program_;
   const dsl::Graph& graph_;
   const Plan& plan_;
   const std::vector<uint32_t>& program_pass_;
-  const std::vector<uint32_t>& program_resource_;
 };
 
 }  // namespace rg::verify

@@ -1,5 +1,7 @@
 #include "compiler/verify/roles.h"
 
+#include <algorithm>
+
 namespace rg::verify {
 namespace {
 
