@@ -50,12 +50,7 @@ std::string Harmless::unseen(Index image_barrier, Stages stage, Accesses access)
 bool Harmless::is_cleared_before_tests(Index image_barrier) const {
   const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
   const Resource& image = plan_.resources[barrier.image.resource];
-  const auto holds = [&](const Step& step) {
-    if (step.kind != StepKind::barriers) return false;
-    const BarrierGroup& group = plan_.groups[step.index];
-    return image_barrier >= group.first_image && image_barrier - group.first_image < group.image_count;
-  };
-  const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), holds);
+  const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), [&](const Step& each) { return holds(each, image_barrier); });
   bool all = (barrier.range.aspects & (aspect_depth | aspect_stencil)) != 0;
   for (const uint32_t aspect : {aspect_depth, aspect_stencil})
     for (uint32_t mip = barrier.range.mip; mip - barrier.range.mip < barrier.range.mips && mip < image.mips; ++mip)
@@ -82,6 +77,8 @@ std::string Harmless::narrower(Index image_barrier, uint32_t mip, uint32_t layer
   if (barrier.src_queue != barrier.dst_queue) return "";
   if (barrier.old_layout == barrier.new_layout && barrier.src_accesses == 0 && barrier.dst_accesses == 0)
     return "range of a barrier that only orders";
+  if (barrier.old_layout == barrier.new_layout && is_waited_for(image_barrier, mip, layer))
+    return "part of a barrier for which a semaphore has waited";
   return barrier.old_layout == Layout::undefined && leaves_layout(image_barrier, mip, layer) ? "part of a discard whose layout stays" : "";
 }
 
@@ -106,6 +103,73 @@ bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) 
 }
 
 // ---- semaphores -----------------------------------------------------------------------------------------------------------
+
+// What the frame has done to the part since its first write is behind a signal, and a wait leads from there to this barrier's second scope.
+bool Harmless::is_waited_for(Index image_barrier, uint32_t mip, uint32_t layer) const {
+  const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
+  const Range part{barrier.range.aspects, mip, 1, layer, 1};
+  std::vector<std::pair<Index, Stages>> users;  // batches, and in which stages
+  for (Index b = 0; b < plan_.batches.size(); ++b)
+    for (const Step& step : plan_.steps.subspan(plan_.batches[b].first_step, plan_.batches[b].step_count)) {
+      if (holds(step, image_barrier)) {
+        const auto leads_here = [&](const auto& user) { return leads(user.first, user.second, b, barrier.dst_stages); };
+        return !users.empty() && std::all_of(users.begin(), users.end(), leads_here);
+      }
+      if (step.kind == StepKind::barriers && !users.empty() && moves(plan_.groups[step.index], barrier.image, part)) return false;
+      if (step.kind == StepKind::barriers) continue;
+      for (const Access& access : accesses_of(step.index)) {
+        if (access.ref != barrier.image || !meet(access.range, part)) continue;
+        if (users.empty() && (!access.writes || may_skip(step.index, access.ref, mip))) return false;  // who came before the frame counts, too
+        users.emplace_back(b, access.stages);
+      }
+    }
+  return false;
+}
+
+bool Harmless::holds(const Step& step, Index image_barrier) const {
+  if (step.kind != StepKind::barriers) return false;
+  const BarrierGroup& group = plan_.groups[step.index];
+  return image_barrier >= group.first_image && image_barrier - group.first_image < group.image_count;
+}
+
+// To another layout, or queue.
+bool Harmless::moves(const BarrierGroup& group, const Ref& image, const Range& part) const {
+  const auto barriers = plan_.image_barriers.subspan(group.first_image, group.image_count);
+  return std::any_of(barriers.begin(), barriers.end(), [&](const ImageBarrier& barrier) {
+    const bool changes = barrier.old_layout != barrier.new_layout || barrier.src_queue != barrier.dst_queue;
+    return barrier.image == image && meet(barrier.range, part) && changes;
+  });
+}
+
+// Though the image has the mip.
+bool Harmless::may_skip(Index pass, const Ref& image, uint32_t mip) const {
+  const Pass& row = plan_.passes[pass];
+  const auto limits = plan_.mip_limits.subspan(row.first_mip_limit, row.mip_limit_count);
+  const auto is_other = [&](const MipLimit& limit) { return limit.image != image.resource || limit.mip > mip; };
+  return row.guard != 0 || std::any_of(limits.begin(), limits.end(), is_other);
+}
+
+// Signals of everything that ran in the stages, or of all commands, that others wait for in turn. What follows in logical order alone does not count.
+bool Harmless::leads(Index from, Stages stages, Index to, Stages second) const {
+  std::vector<std::pair<Index, Stages>> reached{{from, stages}};  // batches, and which of their stages
+  for (size_t i = 0; i < reached.size(); ++i) {
+    const auto [first, held] = reached[i];
+    const Index queue = plan_.batches[first].queue;
+    uint64_t signalled = 0;
+    for (Index b = first; b < to; ++b) {
+      const Batch &batch = plan_.batches[b], &next = plan_.batches[b + 1];
+      for (const Signal& signal : plan_.signals.subspan(batch.first_signal, batch.queue == queue ? batch.signal_count : 0))
+        if (signalled == 0 && ((held & ~signal.stages) == 0 || (signal.stages & stage::all_commands) != 0)) signalled = signal.value;
+      for (const Wait& wait : plan_.waits.subspan(next.first_wait, next.wait_count)) {
+        if (signalled == 0 || wait.queue != queue || wait.frames_ago != 0 || wait.value < signalled) continue;
+        if (next.queue == plan_.batches[to].queue && (second & ~wait.stages) == 0) return true;
+        const std::pair<Index, Stages> more{b + 1, wait.stages};
+        if (std::find(reached.begin(), reached.end(), more) == reached.end()) reached.push_back(more);
+      }
+    }
+  }
+  return false;
+}
 
 // Where an earlier stage waits as well, tests are named only so that they see what the pass clears.
 std::string Harmless::unwaited(Index wait, Stages stage) const {

@@ -36,6 +36,11 @@ class Harmless {
   std::span<const Access> accesses_of(Index pass) const {
     return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count);
   }
+  bool is_waited_for(Index image_barrier, uint32_t mip, uint32_t layer) const;
+  bool leads(Index from, Stages stages, Index to, Stages second) const;
+  bool holds(const Step& step, Index image_barrier) const;
+  bool moves(const BarrierGroup& group, const Ref& image, const Range& part) const;
+  bool may_skip(Index pass, const Ref& image, uint32_t mip) const;
   bool clears_depth(const Pass& pass) const;
   bool is_cleared_before_tests(Index image_barrier) const;
   bool is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const;

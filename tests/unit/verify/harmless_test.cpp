@@ -100,5 +100,51 @@ TEST(Harmless, WaitForTestsThatAnEarlierStageWaitsFor) {
   }
 }
 
+// Queue 0 writes two mips, queue 1 waits for it, and queue 0 for queue 1; then one mip is written again, and one barrier covers both. As in random
+// graph 9,275.
+struct RoundTrip : Damaged {
+  dsl::ResourceId image = Builder::image("image", dsl::Format::rgba16f, 2);
+  dsl::PassId first;
+  Stages signalled = stage::compute_shader, waited = stage::fragment_shader;
+  bool reads_between = false;
+  explicit RoundTrip() { lifetime(image, dsl::Lifetime::transient); }
+  std::string narrower() {
+    const Index other = queue(QueueKind::compute);
+    batch(0);
+    first = compute("both", {writes(image)});
+    signal(signalled);
+    batch(other);
+    wait(0, 1, stage::compute_shader);
+    signal(stage::all_commands);
+    batch(0);
+    wait(other, 1, waited);
+    if (reads_between) compute("between", {reads(image).mip(1)});
+    compute("again", {writes(image).mip(0)});
+    image_barrier(image, Layout::general, Layout::general, stage::compute_shader, access::shader_storage_write, stage::fragment_shader,
+                  access::shader_storage_read, {aspect_color, 0, 2, 0, 1});
+    raster("read", {reads(image)});
+    for (Access& row : plan.accesses) row.stages = stage::compute_shader;
+    return harmless().narrower(0, 1, 0);
+  }
+};
+
+TEST(Harmless, PartOfABarrierForWhichASemaphoreHasWaited) {
+  RoundTrip trip;
+  EXPECT_EQ(trip.narrower(), "part of a barrier for which a semaphore has waited");
+  EXPECT_EQ(trip.harmless().narrower(0, 0, 0), "") << "it was written after the wait";
+  trip.condition(trip.first, "night");
+  EXPECT_EQ(trip.harmless().narrower(0, 1, 0), "") << "the frame before may have written it last";
+}
+
+TEST(Harmless, SemaphoresThatDoNotLeadThere) {
+  RoundTrip signal, wait, between;
+  signal.signalled = stage::copy;
+  EXPECT_EQ(signal.narrower(), "");
+  wait.waited = stage::vertex_shader;
+  EXPECT_EQ(wait.narrower(), "");
+  between.reads_between = true;
+  EXPECT_EQ(between.narrower(), "");
+}
+
 }  // namespace
 }  // namespace rg::verify
