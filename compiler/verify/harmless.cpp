@@ -171,24 +171,35 @@ bool Harmless::leads(Index from, Stages stages, Index to, Stages second) const {
   return false;
 }
 
-// Where an earlier stage waits as well, tests are named only so that they see what the pass clears.
+// Tests of what is cleared behind the wait need nothing from before, and wait where an earlier stage does.
 std::string Harmless::unwaited(Index wait, Stages stage) const {
-  const Wait& row = plan_.waits[wait];
-  if ((stage & kTests) == 0 || (row.stages & ~kTests) == 0) return "";
-  Index queue = kNone;
-  for (const Batch& batch : plan_.batches) {
-    if (wait >= batch.first_wait && wait - batch.first_wait < batch.wait_count) queue = batch.queue;
-    if (batch.queue != queue) continue;
-    for (const Step& step : plan_.steps.subspan(batch.first_step, batch.step_count))
-      if (step.kind == StepKind::pass && clears_depth(plan_.passes[step.index])) return kOwnClear;
-  }
-  return "";
+  constexpr Stages kBefore = stage::draw_indirect | stage::index_input | stage::vertex_attribute_input | stage::vertex_shader |
+                             stage::tess_control_shader | stage::tess_eval_shader | stage::geometry_shader;
+  const Stages before = stage == stage::late_fragment_tests ? kBefore | stage::early_fragment_tests : kBefore;
+  const bool follows = (stage & kTests) != 0 && (plan_.waits[wait].stages & before) != 0;
+  return follows && is_cleared_behind(wait) ? kOwnClear : "";
 }
 
-bool Harmless::clears_depth(const Pass& pass) const {
-  if (pass.rendering == kNone) return false;
-  const auto clears = [&](Index attachment) { return attachment != kNone && plan_.attachments[attachment].load != LoadOp::load; };
-  return clears(plan_.renderings[pass.rendering].depth) || clears(plan_.renderings[pass.rendering].stencil);
+bool Harmless::is_cleared_behind(Index wait) const {
+  Index queue = kNone;
+  std::vector<Attachment> cleared;
+  for (const Batch& batch : plan_.batches) {
+    if (wait >= batch.first_wait && wait - batch.first_wait < batch.wait_count) queue = batch.queue;
+    for (const Step& step : plan_.steps.subspan(batch.first_step, batch.queue == queue ? batch.step_count : 0)) {
+      if (step.kind != StepKind::pass || plan_.passes[step.index].rendering == kNone) continue;
+      const Rendering& rendering = plan_.renderings[plan_.passes[step.index].rendering];
+      for (const Index attachment : {rendering.depth, rendering.stencil}) {
+        if (attachment == kNone) continue;
+        const Attachment& row = plan_.attachments[attachment];
+        const auto same = [&](const Attachment& other) { return other.ref == row.ref && other.range == row.range; };
+        if (row.load != LoadOp::load)
+          cleared.push_back(row);
+        else if (std::none_of(cleared.begin(), cleared.end(), same))
+          return false;
+      }
+    }
+  }
+  return !cleared.empty();
 }
 
 // ---- contents and memory --------------------------------------------------------------------------------------------------

@@ -81,23 +81,33 @@ TEST(Harmless, NextFrameMayTest) {
   }
 }
 
-TEST(Harmless, WaitForTestsThatAnEarlierStageWaitsFor) {
-  for (const bool cleared : {false, true}) {
-    Damaged d;
-    const auto depth = d.depth();
-    const Index other = d.queue(QueueKind::compute);
-    d.batch(other);
-    d.signal(stage::compute_shader);
-    d.batch(0);
-    d.wait(other, 1, stage::vertex_shader | kBoth);
-    d.wait(other, 1, kBoth);
-    d.raster("draw", {cleared ? writes(depth, Role::depth).cleared() : updates(depth, Role::depth)});
-    const Harmless harmless = d.harmless();
-    EXPECT_EQ(harmless.unwaited(0, kLate), cleared ? kOwnClear : "");
-    EXPECT_EQ(harmless.unwaited(0, kEarly), cleared ? kOwnClear : "");
-    EXPECT_EQ(harmless.unwaited(0, stage::vertex_shader), "");
-    EXPECT_EQ(harmless.unwaited(1, kLate), "");
+struct Waiting : Damaged {
+  dsl::ResourceId image = depth();
+  explicit Waiting(const std::vector<Do>& passes) {
+    const Index other = queue(QueueKind::compute);
+    batch(other);
+    signal(stage::compute_shader);
+    batch(0);
+    wait(other, 1, stage::vertex_shader | kBoth);
+    wait(other, 1, stage::fragment_shader | kBoth);
+    for (const Do& access : passes) raster("draw", {access});
   }
+};
+
+TEST(Harmless, WaitForTestsThatAnEarlierStageWaitsFor) {
+  Waiting waiting({writes(dsl::ResourceId{size_t{0}}, Role::depth).cleared(), updates(dsl::ResourceId{size_t{0}}, Role::depth)});
+  const Harmless harmless = waiting.harmless();
+  EXPECT_EQ(harmless.unwaited(0, kLate), kOwnClear);
+  EXPECT_EQ(harmless.unwaited(0, kEarly), kOwnClear);
+  EXPECT_EQ(harmless.unwaited(0, stage::vertex_shader), "");
+  EXPECT_EQ(harmless.unwaited(1, kLate), kOwnClear) << "early tests wait";
+  EXPECT_EQ(harmless.unwaited(1, kEarly), "") << "fragment shaders do not come before early tests";
+}
+
+TEST(Harmless, WaitForTestsOfWhatIsKept) {
+  Waiting waiting({updates(dsl::ResourceId{size_t{0}}, Role::depth), writes(dsl::ResourceId{size_t{0}}, Role::depth).cleared()});
+  EXPECT_EQ(waiting.harmless().unwaited(0, kLate), "");
+  EXPECT_EQ(waiting.harmless().unwaited(0, kEarly), "");
 }
 
 // Queue 0 writes two mips, queue 1 waits for it, and queue 0 for queue 1; then one mip is written again, and one barrier covers both. As in random
