@@ -279,8 +279,8 @@ class Assigner {
     }
   }
 
-  // Imported data is there when the first queue starts its frame, and is the engine's again when that queue ends it: others learn of the one by waiting
-  // for something the first queue has run, and it waits for them before the last it runs.
+  // Imported data is there when the first queue starts its frame, and is the engine's again when that queue ends it: others learn of the one by
+  // waiting for something the first queue has run, and it waits for them before the last it runs.
   void order_importers() {
     const auto& nodes = problem_.nodes;
     const auto fixed = [](const auto& node) { return node.home == 0 && node.away == UINT32_MAX; };
