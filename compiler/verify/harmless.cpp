@@ -171,35 +171,47 @@ bool Harmless::leads(Index from, Stages stages, Index to, Stages second) const {
   return false;
 }
 
-// Tests of what is cleared behind the wait need nothing from before, and wait where an earlier stage does.
+// Tests of what is cleared behind the wait need nothing from before. The clear waits where an earlier stage does, or behind a barrier that comes
+// after a stage that waits.
 std::string Harmless::unwaited(Index wait, Stages stage) const {
   constexpr Stages kBefore = stage::draw_indirect | stage::index_input | stage::vertex_attribute_input | stage::vertex_shader |
                              stage::tess_control_shader | stage::tess_eval_shader | stage::geometry_shader;
-  const Stages before = stage == stage::late_fragment_tests ? kBefore | stage::early_fragment_tests : kBefore;
-  const bool follows = (stage & kTests) != 0 && (plan_.waits[wait].stages & before) != 0;
-  return follows && is_cleared_behind(wait) ? kOwnClear : "";
-}
-
-bool Harmless::is_cleared_behind(Index wait) const {
+  const Stages before = stage == stage::late_fragment_tests ? kBefore | stage::early_fragment_tests : kBefore,
+               others = plan_.waits[wait].stages & ~stage;
+  if ((stage & kTests) == 0) return "";
+  bool follows = (others & before) != 0;
   Index queue = kNone;
   std::vector<Attachment> cleared;
   for (const Batch& batch : plan_.batches) {
     if (wait >= batch.first_wait && wait - batch.first_wait < batch.wait_count) queue = batch.queue;
     for (const Step& step : plan_.steps.subspan(batch.first_step, batch.queue == queue ? batch.step_count : 0)) {
-      if (step.kind != StepKind::pass || plan_.passes[step.index].rendering == kNone) continue;
-      const Rendering& rendering = plan_.renderings[plan_.passes[step.index].rendering];
-      for (const Index attachment : {rendering.depth, rendering.stencil}) {
-        if (attachment == kNone) continue;
-        const Attachment& row = plan_.attachments[attachment];
-        const auto same = [&](const Attachment& other) { return other.ref == row.ref && other.range == row.range; };
-        if (row.load != LoadOp::load)
-          cleared.push_back(row);
-        else if (std::none_of(cleared.begin(), cleared.end(), same))
-          return false;
-      }
+      if (step.kind == StepKind::barriers)
+        follows = follows || leads_to_tests(plan_.groups[step.index], others);
+      else if (!is_cleared_first(plan_.passes[step.index], follows, cleared))
+        return "";
     }
   }
-  return !cleared.empty();
+  return cleared.empty() ? "" : kOwnClear;
+}
+
+bool Harmless::leads_to_tests(const BarrierGroup& group, Stages from) const {
+  const auto barriers = plan_.image_barriers.subspan(group.first_image, group.image_count);
+  return std::any_of(barriers.begin(), barriers.end(), [&](const ImageBarrier& barrier) {
+    return barrier.src_queue == barrier.dst_queue && (barrier.src_stages & from) != 0 && (barrier.dst_stages & stage::early_fragment_tests) != 0;
+  });
+}
+
+// What the pass tests has been cleared, or it clears that itself. Adds to `cleared`.
+bool Harmless::is_cleared_first(const Pass& pass, bool may_clear, std::vector<Attachment>& cleared) const {
+  if (pass.rendering == kNone) return true;
+  for (const Index attachment : {plan_.renderings[pass.rendering].depth, plan_.renderings[pass.rendering].stencil}) {
+    if (attachment == kNone) continue;
+    const Attachment& row = plan_.attachments[attachment];
+    const auto same = [&](const Attachment& other) { return other.ref == row.ref && other.range == row.range; };
+    if (row.load == LoadOp::load ? std::none_of(cleared.begin(), cleared.end(), same) : !may_clear) return false;
+    cleared.push_back(row);
+  }
+  return true;
 }
 
 // ---- contents and memory --------------------------------------------------------------------------------------------------

@@ -41,7 +41,8 @@ class Harmless {
   bool holds(const Step& step, Index image_barrier) const;
   bool moves(const BarrierGroup& group, const Ref& image, const Range& part) const;
   bool may_skip(Index pass, const Ref& image, uint32_t mip) const;
-  bool is_cleared_behind(Index wait) const;
+  bool leads_to_tests(const BarrierGroup& group, Stages from) const;
+  bool is_cleared_first(const Pass& pass, bool may_clear, std::vector<Attachment>& cleared) const;
   bool is_cleared_before_tests(Index image_barrier) const;
   bool is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const;
   bool draws_to(const Pass& pass, Index attachment) const;

@@ -94,6 +94,23 @@ struct Waiting : Damaged {
   }
 };
 
+// As in random graph 6,745: the clear comes after a stage that waits, by a barrier.
+TEST(Harmless, WaitForTestsThatABarrierOrders) {
+  for (const Stages from : {stage::compute_shader, stage::copy}) {
+    Damaged d;
+    const auto depth = d.depth();
+    const Index other = d.queue(QueueKind::compute);
+    d.batch(other);
+    d.signal(stage::compute_shader);
+    d.batch(0);
+    d.wait(other, 1, stage::compute_shader | kBoth);
+    d.image_barrier(depth, Layout::general, Layout::general, from, 0, kEarly, 0);
+    d.raster("draw", {writes(depth, Role::depth).cleared()});
+    EXPECT_EQ(d.harmless().unwaited(0, kEarly), from == stage::compute_shader ? kOwnClear : "");
+    EXPECT_EQ(d.harmless().unwaited(0, stage::compute_shader), "");
+  }
+}
+
 TEST(Harmless, WaitForTestsThatAnEarlierStageWaitsFor) {
   Waiting waiting({writes(dsl::ResourceId{size_t{0}}, Role::depth).cleared(), updates(dsl::ResourceId{size_t{0}}, Role::depth)});
   const Harmless harmless = waiting.harmless();
