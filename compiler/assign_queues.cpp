@@ -279,25 +279,44 @@ class Assigner {
     }
   }
 
-  // Imported data is there when the first queue starts its frame; others learn of that by waiting for something it has run.
+  // Imported data is there when the first queue starts its frame, and is the engine's again when that queue ends it: others learn of the one by
+  // waiting for something the first queue has run, and it waits for them before the last it runs.
   void order_importers() {
+    const auto& nodes = problem_.nodes;
     const auto fixed = [](const auto& node) { return node.home == 0 && node.away == UINT32_MAX; };
-    const auto first = static_cast<uint32_t>(std::find_if(problem_.nodes.begin(), problem_.nodes.end(), fixed) - problem_.nodes.begin());
-    for (uint32_t node = 0; node < problem_.nodes.size(); ++node) {
-      const uint32_t pass = one_queue_.order[node];
-      const auto uses = frame_.uses_of(pass);
-      const bool imports =
-          std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return frame_.resource_of(use.cell).lifetime == dsl::Lifetime::imported; });
-      if (!imports || fixed(problem_.nodes[node])) continue;
-      if (node < first) {
-        problem_.nodes[node].away = UINT32_MAX, problem_.nodes[node].home = 0;
-        plan_.decisions.push_back(
-            {pass, false, "stays on the first queue: nothing there runs before it, so nothing tells that imported data is there"});
-        continue;
-      }
-      problem_.edges.push_back({first, node});
-      plan_.extra.emplace_back(one_queue_.order[first], pass);
+    const auto first = static_cast<uint32_t>(std::find_if(nodes.begin(), nodes.end(), fixed) - nodes.begin());
+    const auto end = static_cast<uint32_t>(nodes.rend() - std::find_if(nodes.rbegin(), nodes.rend(), fixed));  // behind the last
+    for (uint32_t node = 0; node < nodes.size(); ++node) {
+      const bool gives_back = is_given_back(one_queue_.order[node]);
+      if (fixed(nodes[node]) || !(gives_back || imports(one_queue_.order[node]))) continue;
+      if (node < first)
+        keep_at_home(node, "nothing there runs before it, so nothing tells that imported data is there");
+      else if (gives_back && node >= end)
+        keep_at_home(node, "nothing there runs after it, so nothing tells the engine that its data is free again");
+      else
+        order(first, node);
+      if (gives_back && !fixed(nodes[node])) order(node, end - 1);
     }
+  }
+  bool imports(uint32_t pass) const {
+    const auto uses = frame_.uses_of(pass);
+    return std::any_of(uses.begin(), uses.end(), [&](const Use& use) { return frame_.resource_of(use.cell).lifetime == dsl::Lifetime::imported; });
+  }
+  // Something the engine goes on to use.
+  bool is_given_back(uint32_t pass) const {
+    const auto uses = frame_.uses_of(pass);
+    return std::any_of(uses.begin(), uses.end(), [&](const Use& use) {
+      const dsl::Resource& resource = frame_.resource_of(use.cell);
+      return resource.lifetime == dsl::Lifetime::imported && effect_of(resource.after, 0).stages() != 0;
+    });
+  }
+  void keep_at_home(uint32_t node, const std::string& why) {
+    problem_.nodes[node].away = UINT32_MAX, problem_.nodes[node].home = 0;
+    plan_.decisions.push_back({one_queue_.order[node], false, "stays on the first queue: " + why});
+  }
+  void order(uint32_t before, uint32_t after) {
+    problem_.edges.push_back({before, after});
+    plan_.extra.emplace_back(one_queue_.order[before], one_queue_.order[after]);
   }
 
   // A rendering begins when all its passes can run.

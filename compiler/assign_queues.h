@@ -33,7 +33,7 @@ struct QueuePlan {
   uint64_t simulations = 0;
   bool complete = true;
   std::vector<QueueDecision> decisions;              // of passes that name a queue
-  std::vector<std::pair<uint32_t, uint32_t>> extra;  // passes: what reads imported buffers elsewhere runs after the first pass of the engine's queue
+  std::vector<std::pair<uint32_t, uint32_t>> extra;  // passes: what reads imported data elsewhere runs between two of the engine's queue
   std::vector<uint32_t> contested;                   // images whose layout would change between several queues, which no move avoids: use `general`
 };
 

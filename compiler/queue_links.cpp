@@ -26,10 +26,10 @@ void add_unseen(Stages stages, Accesses accesses, const Effect& seen, Effect& un
   }
 }
 // Use by use, because what two of them do together is more than what both do.
-Effect not_seen(const Side& side) {
+Effect not_seen(const Side& side, const Effect& seen) {
   Effect unseen;
-  if (side.events.empty()) add_unseen(side.effect.read_stages, side.effect.reads, side.seen, unseen);
-  for (const Event& event : side.events) add_unseen(event.read_stages, event.reads, side.seen, unseen);
+  if (side.events.empty()) add_unseen(side.effect.read_stages, side.effect.reads, seen, unseen);
+  for (const Event& event : side.events) add_unseen(event.read_stages, event.reads, seen, unseen);
   return unseen;
 }
 
@@ -39,9 +39,10 @@ void fill_second_scope(CellBarrier& b, const Side& from, const Side& to, bool ne
     b.dst_stages = e.stages(), b.dst_accesses = e.reads | e.writes;
     return;
   }
-  // Contents made available before, not yet visible to all reads of this one.
-  const Effect unseen = to.seen.reads ? not_seen(to) : e;
-  const bool visible = unseen.reads == 0 || (is_subset(e.reads, from.effect.reads) && is_subset(e.read_stages, from.effect.read_stages));
+  // Contents made available before, not yet visible to all reads of this one. The barrier into those before named all their reads in all their
+  // stages, but for what had been seen.
+  const Effect unseen = to.seen.reads ? not_seen(to, to.seen) : e, named = to.seen.reads ? not_seen(from, to.seen) : from.effect;
+  const bool visible = unseen.reads == 0 || (is_subset(unseen.reads, named.reads) && is_subset(unseen.read_stages, named.read_stages));
   if (to.needs && from.defined && !visible)
     b.dst_stages = unseen.read_stages | earliest_stages(e.write_stages), b.dst_accesses = unseen.reads;
   else

@@ -251,7 +251,15 @@ class Synchroniser {
       next.seen = before.effect;
     else if (!last.writes && last.effect.layout == after.layout)
       next.seen = last.covered;
-    exit(last, connect(frame_, options_, line.cell, unnamed(side_of(line.cell, last, defined), after), next));
+    // Of readers on several queues those on other ones are waited for, see tie_to_first_queue().
+    Side side = side_of(line.cell, last, defined);
+    uint32_t segment = last.last_segment;
+    if (last.queue == kSeveralQueues) {
+      side = on_queue(frame_, line.cell, side, 0);
+      segment = 0;
+      for (const Event& event : side.events) segment = std::max(segment, event.segment);
+    }
+    if (!side.events.empty()) exit(segment, connect(frame_, options_, line.cell, unnamed(side, after), next));
   }
 
   // The epoch leaves contents and layout as they came.
@@ -310,7 +318,7 @@ class Synchroniser {
     if (joins) merge(last.covered, host);
     connect_within(whole, false);
     if (!joins)
-      exit(last,
+      exit(last.last_segment,
            connect(frame_, options_, line.cell, on_queue(frame_, line.cell, side_of(line.cell, last, true), schedule_.queue_of[last.last_segment]),
                    {host, false, true, true, {}, false, {}}));
     boundary(sync_.entry, line.cell, {}, Layout::undefined, true);
@@ -337,7 +345,8 @@ class Synchroniser {
     return stages;
   }
 
-  void exit(const Epoch& last, CellBarrier barrier) { exits_.push_back({last.last_segment, std::move(barrier)}); }
+  // `segment`: of the last user.
+  void exit(uint32_t segment, CellBarrier barrier) { exits_.push_back({segment, std::move(barrier)}); }
 
   // Together in the closing group of their queue where one needs it, else in the last group there is.
   void place_exits() {

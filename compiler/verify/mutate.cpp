@@ -43,7 +43,7 @@ class Mutator {
         program_pass_(program_pass),
         program_resource_(program_resource),
         options_(options),
-        harmless_(program.graphs[graph], plan, program_pass, program_resource) {}
+        harmless_(program, graph, plan, program_pass) {}
 
   MutationReport run() {
     each("barrier", plan_.memory_barriers, [&](Index i) { masks(&Plan::memory_barriers, i, "memory barrier"); });
@@ -145,10 +145,14 @@ class Mutator {
 
   template <class Row, class Mask>
   void clear_bits(Column<Row> column, Index at, Mask Row::*mask, const std::string& what, const std::string& harmless) {
+    clear_each(column, at, mask, what, [&](Mask) { return harmless; });
+  }
+  template <class Row, class Mask, class Class>
+  void clear_each(Column<Row> column, Index at, Mask Row::*mask, const std::string& what, Class harmless) {
     for (Mask rest = (plan_.*column)[at].*mask; rest != 0; rest &= rest - 1) {
       const Mask bit = rest & ~(rest - 1);
       change(
-          column, at, [&](Row& row) { row.*mask &= ~bit; }, what + " without bit " + std::to_string(bit), harmless);
+          column, at, [&](Row& row) { row.*mask &= ~bit; }, what + " without bit " + std::to_string(bit), harmless(bit));
     }
   }
 
@@ -158,17 +162,15 @@ class Mutator {
     const std::string harmless = tag_name(row.tag), name = what + " " + std::to_string(at);
     clear_bits(column, at, &Row::src_stages, name + ", source stages", harmless);
     clear_bits(column, at, &Row::src_accesses, name + ", source accesses", harmless);
-    clear_bits(column, at, &Row::dst_stages, name + ", destination stages", harmless);
-    clear_bits(column, at, &Row::dst_accesses, name + ", destination accesses", harmless.empty() ? reads_own_clear(row) : harmless);
-  }
-
-  template <class Row>
-  static std::string reads_own_clear(const Row&) {
-    return {};
-  }
-  // A depth test behind a clear reads what the clear wrote, never what was there before.
-  static std::string reads_own_clear(const ImageBarrier& row) {
-    return (row.dst_accesses & access::depth_stencil_attachment_write) != 0 ? "tests against the pass's own clear" : "";
+    if constexpr (std::is_same_v<Row, ImageBarrier>) {
+      clear_each(column, at, &Row::dst_stages, name + ", destination stages",
+                 [&](Stages bit) { return either(harmless, harmless_.unseen(at, bit, 0)); });
+      clear_each(column, at, &Row::dst_accesses, name + ", destination accesses",
+                 [&](Accesses bit) { return either(harmless, harmless_.unseen(at, 0, bit)); });
+    } else {
+      clear_bits(column, at, &Row::dst_stages, name + ", destination stages", harmless);
+      clear_bits(column, at, &Row::dst_accesses, name + ", destination accesses", harmless);
+    }
   }
 
   std::string resource_name(const Ref& ref) const { return std::string(plan_.resources[ref.resource].name); }
@@ -267,9 +269,7 @@ class Mutator {
     Plan mutant = plan_;
     mutant.waits = rows, mutant.batches = batches;
     judge(mutant, what + " removed", {});
-    // Where an earlier stage waits as well, tests are named only so that they see what the pass clears.
-    const Stages tests = row.stages & (stage::early_fragment_tests | stage::late_fragment_tests);
-    clear_bits(&Plan::waits, at, &Wait::stages, what + ", stages", tests != 0 && tests != row.stages ? "tests against the pass's own clear" : "");
+    clear_each(&Plan::waits, at, &Wait::stages, what + ", stages", [&](Stages bit) { return harmless_.unwaited(at, bit); });
     if (row.value > 1)
       change(
           &Plan::waits, at, [](Wait& w) { --w.value; }, what + ", for an earlier value",
@@ -380,7 +380,7 @@ class Mutator {
     Plan mutant = plan_;
     mutant.steps = steps;
     const Pass &a = plan_.passes[plan_.steps[at].index], &b = plan_.passes[plan_.steps[next].index];
-    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged", harmless_.exchanged(at, next));
+    judge(mutant, "passes " + std::string(a.name) + " and " + std::string(b.name) + " exchanged", harmless_.exchanged(at));
   }
 
   // ---- placement ------------------------------------------------------------------------------------------------------------
