@@ -92,4 +92,14 @@ void describe_physical_device(Device::State& state);
 
 void add_queue(Device::State& state, const ExternalQueue& queue);
 
+// A lost device is reported as what it is, and not called again.
+template <class T>
+Result<T> guarded(Device::State& device, Result<T> result) {
+  if (!result && result.error().code == ErrorCode::device_lost) device.lost = true;
+  return result;
+}
+
+// vkDeviceWaitIdle, which nothing may be submitted beside.
+VkResult wait_for_queues(Device::State& state);
+
 }  // namespace rg
