@@ -53,7 +53,7 @@ TEST(DumpFile, DecodesSixteenAndThirtyTwoBitsAChannel) {
   expect(VK_FORMAT_R16_SFLOAT, {0x00, 0xc0}, {-2, 0, 0, 1});
   expect(VK_FORMAT_R16G16_SNORM, {0x01, 0x80, 0xff, 0x7f}, {-1, 1, 0, 1});
   expect(VK_FORMAT_R16G16B16A16_SFLOAT, {0x00, 0x3c, 0x00, 0x38, 0x00, 0x00, 0x00, 0x40}, {1, 0.5f, 0, 2});
-  expect(VK_FORMAT_R32_UINT, {1, 0, 0, 1}, {16777217, 0, 0, 1});
+  expect(VK_FORMAT_R32_UINT, {2, 0, 0, 1}, {16777218, 0, 0, 1});
   expect(VK_FORMAT_R32_SINT, {0xfe, 0xff, 0xff, 0xff}, {-2, 0, 0, 1});
   expect(VK_FORMAT_R32_SFLOAT, {0, 0, 0x80, 0x3e}, {0.25f, 0, 0, 1});
   expect(VK_FORMAT_R32G32_SFLOAT, {0, 0, 0x80, 0x3e, 0, 0, 0x80, 0xbf}, {0.25f, -1, 0, 1});
