@@ -8,6 +8,7 @@
 #include "compiler/verify/verify.h"
 #include "random_frame.h"
 #include "runtime/graph.h"
+#include "tests/unit/in_memory.h"
 
 namespace rg::test {
 namespace {
