@@ -37,21 +37,23 @@ void Device::State::give_pool(CommandPool pool) {
   spare_pools.push_back(std::move(pool));
 }
 
-namespace {
 VkResult wait_for_queues(Device::State& state) {
   std::vector<std::unique_lock<std::mutex>> locks;
   for (const DeviceQueue& queue : state.queues) {
     const bool locked = std::any_of(locks.begin(), locks.end(), [&](const auto& lock) { return lock.mutex() == queue.mutex; });
     if (!locked) locks.emplace_back(*queue.mutex);
   }
-  return state.vk.DeviceWaitIdle(state.device);
+  const VkResult result = state.vk.DeviceWaitIdle(state.device);
+  if (result == VK_ERROR_DEVICE_LOST) state.lost = true;
+  return result;
 }
-}  // namespace
 
 Device::State::~State() {
-  if (next_resting != 0) static_cast<void>(wait_for_queues(*this));
+  if (next_resting != 0 && !lost) static_cast<void>(wait_for_queues(*this));
   resting = {};
   spare_pools.clear();
+  if (!lost && cache_file.cache) static_cast<void>(rg::save_pipeline_cache(*this, false));  // nobody is left to be told
+  cache_file.cache = {};
   if (owned) {
     if (device != VK_NULL_HANDLE) vk.DestroyDevice(device, nullptr);
     if (messenger != VK_NULL_HANDLE) vk.DestroyDebugUtilsMessengerEXT(instance, messenger, nullptr);
@@ -104,6 +106,7 @@ void describe_physical_device(Device::State& state) {
   state.vk.GetPhysicalDeviceProperties(state.physical, &properties);
   state.name = properties.deviceName;
   state.limits = properties.limits;
+  state.identity = {properties.vendorID, properties.deviceID, properties.driverVersion, std::to_array(properties.pipelineCacheUUID)};
   state.vk.GetPhysicalDeviceMemoryProperties(state.physical, &state.memory);
 
   uint32_t count = 0;
@@ -122,7 +125,18 @@ void add_queue(Device::State& state, const ExternalQueue& queue) {
 
 bool Device::has(Capability capability) const { return (state_->capabilities & bit(capability)) != 0; }
 
-Status Device::wait_idle() { return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {}); }
+Status Device::save_pipeline_cache() {
+  if (!state_->cache_file.cache)
+    return Error{ErrorCode::invalid_argument, "this device has no file for pipelines; name one as DeviceOptions::pipeline_cache"};
+  if (state_->lost) return lost_device();
+  return rg::save_pipeline_cache(*state_, true);
+}
+uint64_t Device::pipeline_cache_loaded() const { return state_->cache_file.loaded_bytes; }
+
+Status Device::wait_idle() {
+  if (state_->lost) return lost_device();
+  return check(wait_for_queues(*state_), "vkDeviceWaitIdle", {});
+}
 
 Result<Device> Device::adopt(const ExternalDevice& external) {
   if (external.get_instance_proc_addr == nullptr || external.device == VK_NULL_HANDLE || external.queue == VK_NULL_HANDLE)

@@ -26,6 +26,10 @@ struct DeviceOptions {
   std::vector<const char*> instance_extensions, device_extensions;
   std::vector<const char*> layers;  // below validation, in this order
   std::vector<Capability> without;  // left alone although the device has them: what runs elsewhere can be tried here
+  // A file that keeps the driver's compiled pipelines between runs; empty: none. Read when the device is made: one that is missing, damaged, longer
+  // than 256 MiB, or of another device or driver counts as empty. Written by save_pipeline_cache, and by ~Device where pipelines have come; never
+  // read again.
+  std::string pipeline_cache;
 };
 // A queue that an engine lends. Vulkan wants calls on one queue to exclude each other: where the engine submits to it as well, both lock `mutex`
 // (which outlives the Device); null: only this Device submits to it.
@@ -110,6 +114,12 @@ class Device {
   std::span<const uint32_t> queue_families() const;
   // Waits on the host until nothing runs; for shutting down. Excludes submits of other threads.
   Status wait_idle();
+  // Writes what the driver has compiled so far to `DeviceOptions::pipeline_cache`, under another name in the same folder that is then renamed. Any
+  // thread, also while pipelines are made. Of several processes that write one file the last one wins. `io`, with the file as it was, where it cannot
+  // be written; `out_of_memory` or `driver` where the driver gives nothing; `invalid_argument` where no file was named. Cost: O(bytes), at most 256
+  // MiB; blocks. ~Device does the same, and has nobody to tell.
+  Status save_pipeline_cache();
+  uint64_t pipeline_cache_loaded() const;        // bytes that the file held when the device was made; 0: it counted as empty
   std::string_view name() const;                 // "llvmpipe (LLVM 15.0.6, 256 bits)"
   const VkPhysicalDeviceLimits& limits() const;  // of the physical device
   bool has(Capability capability) const;         // as enabled, less `DeviceOptions::without`

@@ -12,6 +12,7 @@
 #include "runtime/device.h"
 #include "runtime/functions.h"
 #include "runtime/handles.h"
+#include "runtime/pipeline_cache.h"
 
 namespace rg {
 
@@ -66,7 +67,9 @@ struct Device::State {
   bool host_query_reset = false;
   bool pipeline_statistics = false;
   uint32_t capabilities = 0, without = 0;  // bits of Capability: present, and not to be looked for
-  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
+  CacheIdentity identity;
+  VkPipelineCache pipeline_cache = VK_NULL_HANDLE;  // the engine's, or that of `cache_file`
+  PipelineCacheFile cache_file;
   // Semaphores that a submit has waited for stay until 64 others have come: drivers (Mesa) touch them after they have signalled that the submit is
   // done.
   std::array<std::shared_ptr<void>, 64> resting;
@@ -88,5 +91,15 @@ struct Device::State {
 void describe_physical_device(Device::State& state);
 
 void add_queue(Device::State& state, const ExternalQueue& queue);
+
+// A lost device is reported as what it is, and not called again.
+template <class T>
+Result<T> guarded(Device::State& device, Result<T> result) {
+  if (!result && result.error().code == ErrorCode::device_lost) device.lost = true;
+  return result;
+}
+
+// vkDeviceWaitIdle, which nothing may be submitted beside.
+VkResult wait_for_queues(Device::State& state);
 
 }  // namespace rg

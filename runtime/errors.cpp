@@ -59,6 +59,8 @@ ErrorCode code_of(VkResult result) {
 }
 }  // namespace
 
+Error lost_device() { return Error{ErrorCode::device_lost, "the device was lost; destroy everything made from it and create it again"}; }
+
 Error vulkan_error(VkResult result, std::string_view call, std::string_view subject) {
   std::string message;
   if (!subject.empty()) message.append("`").append(subject).append("`: ");

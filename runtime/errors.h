@@ -15,6 +15,9 @@ std::string_view result_name(VkResult result);  // "VK_ERROR_DEVICE_LOST"
 // "`subject`: call failed with VK_ERROR_...": the code follows from `result`.
 Error vulkan_error(VkResult result, std::string_view call, std::string_view subject);
 
+// What a device says that has been lost before.
+Error lost_device();
+
 inline Status check(VkResult result, std::string_view call, std::string_view subject) {
   if (result == VK_SUCCESS) return Done{};
   return vulkan_error(result, call, subject);

@@ -67,7 +67,11 @@ Status submit_one_by_one(GraphInstance::State& state, FrameSlot& slot) {
     const auto start = std::chrono::steady_clock::now();
     const std::span<const VkSemaphoreSubmitInfo> waits =
         i == 0 ? std::span<const VkSemaphoreSubmitInfo>(state.entry_waits) : std::span<const VkSemaphoreSubmitInfo>();
-    RG_TRY(submit_one(state, {state.context.queues.device_queue[plan.batches[chunk.batch].queue], slot.commands[i], true, waits, VK_NULL_HANDLE}));
+    const uint32_t queue = state.context.queues.device_queue[plan.batches[chunk.batch].queue];
+    const bool watched = !slot.fences.empty();
+    RG_TRY(reset_fences(state.context, slot.fences, slot.fenced));
+    RG_TRY(submit_one(state, {queue, slot.commands[i], true, waits, watched ? slot.fences[queue].get() : VkFence(VK_NULL_HANDLE)}));
+    if (watched) slot.fenced[queue] = true;
     slot.done.values[0] = state.submitted.values[0];
     RG_TRY(wait_for(state, slot.done));
     if (chunk.step_count == 1 && plan.steps[chunk.first_step].kind == StepKind::pass)

@@ -183,21 +183,21 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
 
 }  // namespace
 
-Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
-  Result<std::unique_ptr<State>> state = create_state(device.state(), plan, options, nullptr);
-  if (!state) return state.error();
+namespace {
+
+Result<std::unique_ptr<GraphInstance::State>> begin(Device::State& device, const Plan& plan, const GraphOptions& options) {
+  Result<std::unique_ptr<GraphInstance::State>> state = create_state(device, plan, options, nullptr);
+  if (!state) return state;
   const std::vector<int64_t> initial = initial_extents(plan);
   RG_TRY(rebuild(**state, options.extents.empty() ? std::span<const int64_t>(initial) : options.extents));
-  return GraphInstance(std::move(*state));
+  return state;
 }
 
-Result<GraphInstance> GraphInstance::create_successor(GraphInstance& current, const Plan& plan, const GraphOptions& options) {
-  State& before = *current.state_;
-  if (before.context.device.lost) return Error{ErrorCode::device_lost, "the device was lost"};
+Result<std::unique_ptr<GraphInstance::State>> succeed(GraphInstance::State& before, const Plan& plan, const GraphOptions& options) {
   const Predecessor predecessor{before.context, before.objects};
-  Result<std::unique_ptr<State>> state = create_state(before.context.device, plan, options, &predecessor);
-  if (!state) return state.error();
-  State& after = **state;
+  Result<std::unique_ptr<GraphInstance::State>> state = create_state(before.context.device, plan, options, &predecessor);
+  if (!state) return state;
+  GraphInstance::State& after = **state;
   after.frame = before.frame;
   wait_at_entry(after, before.timelines, before.submitted);
   const Carried from{before.context.plan, *before.sized, before.context};
@@ -205,6 +205,23 @@ Result<GraphInstance> GraphInstance::create_successor(GraphInstance& current, co
   const bool same_extents = before.sized->extents.size() == initial.size();
   const std::span<const int64_t> otherwise = same_extents ? std::span<const int64_t>(before.sized->extents) : std::span<const int64_t>(initial);
   RG_TRY(rebuild(after, options.extents.empty() ? otherwise : options.extents, &from));
+  return state;
+}
+
+}  // namespace
+
+Result<GraphInstance> GraphInstance::create(Device& device, const Plan& plan, const GraphOptions& options) {
+  if (device.state().lost) return lost_device();
+  Result<std::unique_ptr<State>> state = guarded(device.state(), begin(device.state(), plan, options));
+  if (!state) return state.error();
+  return GraphInstance(std::move(*state));
+}
+
+Result<GraphInstance> GraphInstance::create_successor(GraphInstance& current, const Plan& plan, const GraphOptions& options) {
+  State& before = *current.state_;
+  if (before.context.device.lost) return lost_device();
+  Result<std::unique_ptr<State>> state = guarded(before.context.device, succeed(before, plan, options));
+  if (!state) return state.error();
   return GraphInstance(std::move(*state));
 }
 
@@ -214,13 +231,6 @@ Status GraphInstance::continue_from(GraphInstance& other) {
 }
 
 namespace {
-
-// A lost device is reported as what it is, and not called again.
-Status guarded(Device::State& device, Status status) {
-  if (!status && status.error().code == ErrorCode::device_lost) device.lost = true;
-  return status;
-}
-Error lost() { return Error{ErrorCode::device_lost, "the device was lost; destroy everything made from it and create it again"}; }
 
 // What a frame submitted in part leaves behind is thrown away.
 Status mend(GraphInstance::State& state) {
@@ -272,7 +282,7 @@ Status mend_and_resize(GraphInstance::State& state, std::span<const int64_t> ext
 
 Status GraphInstance::resize(std::span<const int64_t> extents) {
   Device::State& device = state_->context.device;
-  return device.lost ? Status(lost()) : guarded(device, mend_and_resize(*state_, extents));
+  return device.lost ? Status(lost_device()) : guarded(device, mend_and_resize(*state_, extents));
 }
 
 namespace {
@@ -299,7 +309,7 @@ Status execute_with_semaphores(GraphInstance::State& state, const FrameInputs& i
 
 Status GraphInstance::execute(const FrameInputs& inputs) {
   Device::State& device = state_->context.device;
-  return device.lost ? Status(lost()) : guarded(device, execute_with_semaphores(*state_, inputs));
+  return device.lost ? Status(lost_device()) : guarded(device, execute_with_semaphores(*state_, inputs));
 }
 
 namespace {
@@ -342,7 +352,7 @@ Status GraphInstance::use_semaphores(std::span<const SemaphoreUse> waits, std::s
 
 Status GraphInstance::wait_idle() {
   Device::State& device = state_->context.device;
-  if (device.lost) return lost();
+  if (device.lost) return lost_device();
   RG_TRY(guarded(device, wait_for(*state_, state_->submitted)));
   release_retired(*state_);
   return Done{};

@@ -38,6 +38,7 @@ using UniqueView = Unique<VkImageView, &DeviceFunctions::DestroyImageView>;
 using UniqueBufferView = Unique<VkBufferView, &DeviceFunctions::DestroyBufferView>;
 using UniqueSampler = Unique<VkSampler, &DeviceFunctions::DestroySampler>;
 using UniqueShader = Unique<VkShaderModule, &DeviceFunctions::DestroyShaderModule>;
+using UniquePipelineCache = Unique<VkPipelineCache, &DeviceFunctions::DestroyPipelineCache>;
 using UniquePipelineLayout = Unique<VkPipelineLayout, &DeviceFunctions::DestroyPipelineLayout>;
 using UniquePipeline = Unique<VkPipeline, &DeviceFunctions::DestroyPipeline>;
 using UniqueRenderPass = Unique<VkRenderPass, &DeviceFunctions::DestroyRenderPass>;

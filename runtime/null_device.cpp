@@ -344,6 +344,25 @@ VkResult VKAPI_CALL image_format_properties(VkPhysicalDevice physical, VkFormat,
   return null.fails() ? null.options.failure : VK_SUCCESS;
 }
 
+constexpr CacheIdentity kIdentity{1, 2, 3, {'n', 'u', 'l', 'l'}};
+
+// What drivers begin with, and how many pipelines there have been.
+VkResult VKAPI_CALL cache_data(VkDevice device, VkPipelineCache cache, size_t* size, void* data) {
+  const VkResult result = Null<TagGetPipelineCacheData, PFN_vkGetPipelineCacheData>::call(device, cache, size, data);
+  if (result != VK_SUCCESS) return result;
+  NullDevice& null = owner(device);
+  const std::lock_guard lock(null.mutex);
+  VkPipelineCacheHeaderVersionOne header{sizeof header, VK_PIPELINE_CACHE_HEADER_VERSION_ONE, kIdentity.vendor, kIdentity.device, {}};
+  std::copy(kIdentity.uuid.begin(), kIdentity.uuid.end(), header.pipelineCacheUUID);
+  const uint64_t pipelines = null.next[kHandleName<VkPipeline>];
+  const size_t room = data == nullptr ? SIZE_MAX : *size;
+  *size = room < sizeof header + sizeof pipelines ? (room < sizeof header ? 0 : sizeof header) : sizeof header + sizeof pipelines;
+  if (data == nullptr) return VK_SUCCESS;
+  if (*size != 0) std::memcpy(data, &header, sizeof header);
+  if (*size > sizeof header) std::memcpy(static_cast<std::byte*>(data) + sizeof header, &pipelines, sizeof pipelines);
+  return *size > sizeof header ? VK_SUCCESS : VK_INCOMPLETE;
+}
+
 void fill_functions(DeviceFunctions& vk) {
 #define RG_DEVICE(name) vk.name = Null<Tag##name, PFN_vk##name>::call;
 #define RG_DEVICE_OPTIONAL RG_DEVICE
@@ -364,12 +383,14 @@ void fill_functions(DeviceFunctions& vk) {
   vk.AllocateDescriptorSets = allocate_sets;
   vk.UpdateDescriptorSets = update_sets;
   vk.GetQueryPoolResults = query_results;
+  vk.GetPipelineCacheData = cache_data;
   vk.GetPhysicalDeviceFormatProperties = format_properties;
   vk.GetPhysicalDeviceImageFormatProperties = image_format_properties;
 }
 
 void fill_description(Device::State& state, const NullOptions& options) {
   state.name = "null";
+  state.identity = kIdentity;
   state.pipeline_statistics = true;
   state.sampler_anisotropy = state.multi_draw_indirect = true;
   state.limits.timestampPeriod = 1;

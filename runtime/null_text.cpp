@@ -140,6 +140,8 @@ void print_struct(NullLine& line, const VkSubmitInfo2& info) {
   }
 }
 
+void print_struct(NullLine& line, const VkPipelineCacheCreateInfo& info) { pair(line, "bytes ", info.initialDataSize); }
+
 void print_struct(NullLine& line, const VkImageCopy& info) {
   layers(line, info.srcSubresource), line.text(" -> "), layers(line, info.dstSubresource), line.text(" "), extent(line, info.extent);
 }

@@ -78,6 +78,7 @@ void print_struct(NullLine& line, const VkBufferCreateInfo& info);
 void print_struct(NullLine& line, const VkImageViewCreateInfo& info);
 void print_struct(NullLine& line, const VkMemoryAllocateInfo& info);
 void print_struct(NullLine& line, const VkSubmitInfo2& info);
+void print_struct(NullLine& line, const VkPipelineCacheCreateInfo& info);
 void print_struct(NullLine& line, const VkImageCopy& info);
 void print_struct(NullLine& line, const VkImageBlit& info);
 void print_struct(NullLine& line, const VkImageResolve& info);

@@ -333,6 +333,7 @@ Result<Device> Device::create(const DeviceOptions& options) {
   RG_TRY(choose_physical_device(*state, options.device));
   RG_TRY(create_device(*state, options));
   describe_physical_device(*state);
+  if (!options.pipeline_cache.empty()) RG_TRY(open_pipeline_cache(*state, options.pipeline_cache));
   return Device(std::move(state));
 }
 

@@ -3,10 +3,10 @@
 #include <sys/stat.h>
 
 #include <bit>
-#include <cstdio>
 #include <vector>
 
 #include "runtime/errors.h"
+#include "runtime/files.h"
 #include "runtime/plan_check.h"
 #include "runtime/plan_fields.h"
 
@@ -135,9 +135,6 @@ std::string header_fault(std::string_view bytes) {
   return plan_file::checksum(body) == header.checksum ? "" : "its bytes are damaged";
 }
 
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 constexpr size_t kMaxBytes = size_t{256} << 20;
 
 }  // namespace
@@ -164,17 +161,9 @@ Result<PlanFile> PlanFile::parse(std::span<const std::byte> bytes, std::string_v
 }
 
 Result<PlanFile> PlanFile::read(const std::string& path) {
-  const auto fail = [&](const char* what) { return Error{ErrorCode::io, "`" + path + "` " + what}; };
-  struct stat about {};
-  if (::stat(path.c_str(), &about) != 0) return fail("cannot be found");
-  if (!S_ISREG(about.st_mode)) return fail("is not a file");
-  const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-  if (!file) return fail("cannot be opened");
-  if (static_cast<uint64_t>(about.st_size) > kMaxBytes) return fail("is larger than 256 MiB; that is no plan file");
-  std::vector<std::byte> bytes(static_cast<size_t>(about.st_size));
-  bytes.resize(std::fread(bytes.data(), 1, bytes.size(), file.get()));
-  if (std::ferror(file.get()) != 0) return fail("cannot be read");
-  return parse(bytes, path);
+  const Result<std::vector<std::byte>> bytes = read_file(path, kMaxBytes, "plan file");
+  if (!bytes) return bytes.error();
+  return parse(*bytes, path);
 }
 
 std::span<const Plan> PlanFile::plans() const { return state_->plans; }

@@ -168,15 +168,6 @@ VkFence fence_of(const GraphInstance::State& state, const FrameSlot& slot, size_
   return slot.fences[state.calls[call].queue].get();
 }
 
-Status reset_fences(const Context& context, const std::vector<UniqueFence>& fences, std::vector<bool>& fenced) {
-  for (size_t i = 0; i < fences.size(); ++i) {
-    const VkFence fence = fences[i].get();
-    if (fenced[i]) RG_TRY(check(context.vk().ResetFences(context.device.device, 1, &fence), "vkResetFences", context.plan.name));
-    fenced[i] = false;
-  }
-  return Done{};
-}
-
 Status submit_calls(GraphInstance::State& state, FrameSlot& slot, const VkSubmitInfo2* infos) {
   const Moment before = state.submitted;
   for (size_t c = 0; c < state.calls.size(); ++c) {
@@ -194,6 +185,15 @@ Status submit_calls(GraphInstance::State& state, FrameSlot& slot, const VkSubmit
 }
 
 }  // namespace
+
+Status reset_fences(const Context& context, const std::vector<UniqueFence>& fences, std::vector<bool>& fenced) {
+  for (size_t i = 0; i < fences.size(); ++i) {
+    const VkFence fence = fences[i].get();
+    if (fenced[i]) RG_TRY(check(context.vk().ResetFences(context.device.device, 1, &fence), "vkResetFences", context.plan.name));
+    fenced[i] = false;
+  }
+  return Done{};
+}
 
 Status submit_frame(GraphInstance::State& state, const FrameInputs& inputs, FrameSlot& slot) {
   RG_TRY(reset_fences(state.context, slot.fences, slot.fenced));

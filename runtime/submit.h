@@ -9,6 +9,9 @@ namespace rg {
 // submitted, or `state.broken` is set.
 Status submit_frame(GraphInstance::State& state, const FrameInputs& inputs, FrameSlot& slot);
 
+// Those that were given to a submit, which has been waited for.
+Status reset_fences(const Context& context, const std::vector<UniqueFence>& fences, std::vector<bool>& fenced);
+
 // One command buffer on a device queue; advances the instance's own timeline, after waiting for what it was submitted last where `chained`.
 struct SingleSubmit {
   uint32_t queue = 0;  // in Device::State::queues

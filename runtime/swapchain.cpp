@@ -19,9 +19,11 @@ struct Swapchain::State {
   SwapchainOptions options;
   VkPresentModeKHR mode = VK_PRESENT_MODE_FIFO_KHR;
   UniqueSwapchain swapchain;
-  VkExtent2D extent = {0, 0};
-  bool stale = true;     // the images must be made anew
-  bool changed = false;  // since the last picture
+  VkExtent2D extent = {0, 0}, presented = {0, 0};
+  VkExtent2D window = {0, 0};   // when the images were made
+  bool follows_window = false;  // nobody else says how large the surface is
+  bool stale = true;            // the images must be made anew
+  bool out = false;             // a picture that was acquired and not presented
   std::vector<VkImage> images;
   std::vector<UniqueView> views;
   std::vector<UniqueSemaphore> drawn;     // by image
@@ -30,11 +32,6 @@ struct Swapchain::State {
 };
 
 namespace {
-
-Status wait_idle(Device::State& device) {
-  const std::lock_guard lock(*device.queues[0].mutex);
-  return check(device.vk.DeviceWaitIdle(device.device), "vkDeviceWaitIdle", "swapchain");
-}
 
 Result<UniqueSemaphore> create_semaphore(Device::State& device) {
   VkSemaphoreCreateInfo info{};
@@ -92,8 +89,10 @@ Status choose_mode(Swapchain::State& state) {
   return Done{};
 }
 
+bool leaves_size(const VkSurfaceCapabilitiesKHR& surface) { return surface.currentExtent.width == UINT32_MAX; }
 VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& surface, VkExtent2D window) {
-  if (surface.currentExtent.width != UINT32_MAX) return surface.currentExtent;
+  if (!leaves_size(surface)) return surface.currentExtent;
+  if (window.width == 0 || window.height == 0) return {0, 0};
   return {std::clamp(window.width, surface.minImageExtent.width, surface.maxImageExtent.width),
           std::clamp(window.height, surface.minImageExtent.height, surface.maxImageExtent.height)};
 }
@@ -109,7 +108,10 @@ VkSwapchainCreateInfoKHR swapchain_info(const Swapchain::State& state, const VkS
   info.imageExtent = extent;
   info.imageArrayLayers = 1;
   info.imageUsage = state.options.usage;
-  info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
+  const bool shared = state.options.concurrent && state.device.families.size() > 1;
+  info.imageSharingMode = shared ? VK_SHARING_MODE_CONCURRENT : VK_SHARING_MODE_EXCLUSIVE;
+  info.queueFamilyIndexCount = shared ? static_cast<uint32_t>(state.device.families.size()) : 0;
+  info.pQueueFamilyIndices = shared ? state.device.families.data() : nullptr;
   info.preTransform = surface.currentTransform;
   info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0 ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                                                                                                    : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
@@ -157,15 +159,17 @@ Status remake(Swapchain::State& state, VkExtent2D window) {
   RG_TRY(check(state.device.vk.GetPhysicalDeviceSurfaceCapabilitiesKHR(state.device.physical, state.surface, &surface),
                "vkGetPhysicalDeviceSurfaceCapabilitiesKHR", "surface"));
   const VkExtent2D extent = choose_extent(surface, window);
-  RG_TRY(wait_idle(state.device));
+  RG_TRY(check(wait_for_queues(state.device), "vkDeviceWaitIdle", "swapchain"));
   state.images.clear(), state.views.clear(), state.drawn.clear(), state.acquired.clear();
-  state.changed |= extent.width != state.extent.width || extent.height != state.extent.height;
   state.extent = {0, 0};
+  state.window = window, state.follows_window = leaves_size(surface);
+  state.out = false;
   if (extent.width == 0 || extent.height == 0) return Done{};
   const VkSwapchainCreateInfoKHR info = swapchain_info(state, surface, extent);
   VkSwapchainKHR swapchain = VK_NULL_HANDLE;
-  RG_TRY(check(state.device.vk.CreateSwapchainKHR(state.device.device, &info, state.device.vk.allocator, &swapchain), "vkCreateSwapchainKHR",
-               "swapchain"));
+  const VkResult made = state.device.vk.CreateSwapchainKHR(state.device.device, &info, state.device.vk.allocator, &swapchain);
+  state.swapchain = {};  // retired, also where there is none that replaces it
+  RG_TRY(check(made, "vkCreateSwapchainKHR", "swapchain"));
   state.swapchain = UniqueSwapchain(state.device.vk, state.device.device, swapchain);
   RG_TRY(create_image_objects(state));
   state.extent = extent;
@@ -178,7 +182,8 @@ Picture make_picture(Swapchain::State& state, uint32_t index, Index slot) {
   Picture picture;
   picture.image = {state.images[index], state.views[index].get()};
   picture.extent = state.extent;
-  picture.changed = std::exchange(state.changed, false);
+  picture.changed = state.extent.width != state.presented.width || state.extent.height != state.presented.height;
+  state.out = true;
   picture.index = index;
   picture.acquired[0] = {state.acquired[index].get(), 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot};
   picture.drawn[0] = {state.drawn[index].get(), 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot};
@@ -188,7 +193,7 @@ Picture make_picture(Swapchain::State& state, uint32_t index, Index slot) {
 }  // namespace
 
 Swapchain::State::~State() {
-  if (swapchain) static_cast<void>(wait_idle(device));
+  if (swapchain && !device.lost) static_cast<void>(wait_for_queues(device));
 }
 
 Swapchain::Swapchain(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -197,18 +202,25 @@ Swapchain& Swapchain::operator=(Swapchain&&) noexcept = default;
 Swapchain::~Swapchain() = default;
 
 Result<Swapchain> Swapchain::create(Device& device, VkSurfaceKHR surface, VkExtent2D window, const SwapchainOptions& options) {
+  if (device.state().lost) return lost_device();
   auto state = std::make_unique<State>(device.state());
   state->surface = surface;
   state->options = options;
   RG_TRY(check_support(*state));
   RG_TRY(check_format(*state));
   RG_TRY(choose_mode(*state));
-  RG_TRY(remake(*state, window));
+  RG_TRY(guarded(device.state(), remake(*state, window)));
   return Swapchain(std::move(state));
 }
 
-Result<Picture> Swapchain::acquire(VkExtent2D window, Index import_slot) {
-  State& state = *state_;
+namespace {
+
+bool resized(const Swapchain::State& state, VkExtent2D window) {
+  return state.follows_window && (window.width != state.window.width || window.height != state.window.height);
+}
+
+Result<Picture> acquire_image(Swapchain::State& state, VkExtent2D window, Index import_slot) {
+  state.stale |= state.out || resized(state, window);
   for (int attempt = 0; attempt < 4; ++attempt) {
     if (state.stale || state.extent.width == 0) RG_TRY(remake(state, window));
     if (state.extent.width == 0) return Picture{};
@@ -225,8 +237,16 @@ Result<Picture> Swapchain::acquire(VkExtent2D window, Index import_slot) {
   return Picture{};  // the window changes faster than images can be made for it
 }
 
+}  // namespace
+
+Result<Picture> Swapchain::acquire(VkExtent2D window, Index import_slot) {
+  if (state_->device.lost) return lost_device();
+  return guarded(state_->device, acquire_image(*state_, window, import_slot));
+}
+
 Status Swapchain::present(const Picture& picture) {
   State& state = *state_;
+  if (state.device.lost) return lost_device();
   const VkSwapchainKHR swapchain = state.swapchain.get();
   VkPresentInfoKHR info{};
   info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
@@ -237,9 +257,11 @@ Status Swapchain::present(const Picture& picture) {
   info.pImageIndices = &picture.index;
   const std::lock_guard lock(*state.device.queues[0].mutex);
   const VkResult result = state.device.vk.QueuePresentKHR(state.device.queues[0].handle, &info);
+  state.stale |= result != VK_SUCCESS;  // after a failure `drawn` may be signalled or not
+  state.out = false;
+  state.presented = picture.extent;
   const bool changed = result == VK_SUBOPTIMAL_KHR || result == VK_ERROR_OUT_OF_DATE_KHR;
-  state.stale |= changed;
-  return changed ? Status(Done{}) : check(result, "vkQueuePresentKHR", "swapchain");
+  return changed ? Status(Done{}) : guarded(state.device, check(result, "vkQueuePresentKHR", "swapchain"));
 }
 
 VkFormat Swapchain::format() const { return state_->options.format; }

@@ -24,13 +24,14 @@ struct SwapchainOptions {
   VkImageUsageFlags usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;  // what the plan's surface wants: Plan::resources[...].usage
   bool vsync = true;                                              // false: mailbox or immediate where the surface has them
   uint32_t min_images = 3;
+  bool concurrent = false;  // the plan's surface is used on several queues (Resource::concurrent)
 };
 
 // An image to draw into, or none: a minimised or zero-sized window shows nothing, and the frame may be left out.
 struct Picture {
   ImportedImage image = {};  // null: nothing to draw
   VkExtent2D extent = {0, 0};
-  bool changed = false;  // another size than the picture before: resize what depends on it first
+  bool changed = false;  // another size than the last one that was presented: resize what depends on it first
   uint32_t index = 0;
   // For GraphInstance::use_semaphores: the image may be written after `acquired`, and is presented after `drawn`. The slot is the surface's import
   // slot.
@@ -49,10 +50,11 @@ class Swapchain {
   Swapchain& operator=(Swapchain&&) noexcept;
   ~Swapchain();  // waits for the device
 
-  // `window`: its size in pixels now, for surfaces that leave the choice to the program. Makes the images anew where the size changed or the surface
-  // went out of date (this waits for the device). A surface that is lost: `out_of_date`; make another.
+  // `window`: its size in pixels now, for surfaces that leave the choice to the program. Makes the images anew where the size changed, the surface
+  // went out of date, or the last picture was not presented because its frame failed (this waits for the device, on all queues). One picture at a
+  // time. A surface that is lost: `out_of_date`; make another.
   Result<Picture> acquire(VkExtent2D window, Index import_slot = kNone);
-  // After a frame that signals `drawn`. An out-of-date surface is no error: the next acquire makes the images anew.
+  // The last picture, after a frame that signals `drawn`. An out-of-date surface is no error: the next acquire makes the images anew.
   Status present(const Picture& picture);
 
   VkFormat format() const;  // of all pictures

@@ -30,8 +30,7 @@ Status TypedFrame::replace(const Plan& plan, const GraphOptions& options, std::o
   kept.engine_set_layouts = layouts;  // `options` may be our own
   Result<GraphInstance> next = GraphInstance::create_successor(instance_, plan, kept);
   if (!next) return next.error();
-  retired_.reset();
-  retired_.emplace(Retired{std::move(instance_), std::move(file_), next->frame() + 4});
+  retired_.push_back({std::move(instance_), std::move(file_), next->frame() + 4});
   instance_ = std::move(*next);
   file_ = std::move(file);
   keep_options(kept);
@@ -40,7 +39,7 @@ Status TypedFrame::replace(const Plan& plan, const GraphOptions& options, std::o
 
 // The slots of four frames, the most in flight, have come round: each waited for a frame that came after everything of the old instance.
 void TypedFrame::let_go() {
-  if (instance_.frame() > retired_->until) retired_.reset();
+  std::erase_if(retired_, [&](const Retired& retired) { return instance_.frame() > retired.until; });
 }
 
 Status TypedFrame::reload(const PlanFile& file) {

@@ -67,7 +67,7 @@ class TypedFrame {
   // For the generated execute.
   Status execute_inputs(const FrameInputs& inputs) {
     const Status done = instance_.execute(inputs);
-    if (retired_) [[unlikely]]
+    if (!retired_.empty()) [[unlikely]]
       let_go();
     return done;
   }
@@ -96,7 +96,7 @@ class TypedFrame {
   std::vector<VkDescriptorSetLayout> engine_set_layouts_;
   std::optional<PlanFile> file_;  // of the plan that runs now; none: the generated one
   GraphInstance instance_;
-  std::optional<Retired> retired_;
+  std::vector<Retired> retired_;
 };
 
 }  // namespace rg

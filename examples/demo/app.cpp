@@ -199,10 +199,19 @@ DeviceOptions device_options(const DemoOptions& options) {
   DeviceOptions device;
   device.device = options.device;
   device.validate = options.validate;
+  device.pipeline_cache = options.pipeline_cache;
   device.on_message = [](bool is_error, std::string_view message) {
     std::fprintf(stderr, "%s: %.*s\n", is_error ? "validation error" : "validation", static_cast<int>(message.size()), message.data());
   };
   return device;
+}
+
+// ~Device would, too, and could not say that it failed.
+Status save_pipelines(Device& device, const DemoOptions& options) {
+  if (options.pipeline_cache.empty()) return Done{};
+  if (Status saved = device.save_pipeline_cache(); !saved) return saved;
+  std::printf("wrote %s\n", options.pipeline_cache.c_str());
+  return Done{};
 }
 
 }  // namespace
@@ -218,6 +227,7 @@ int run_demo(int argc, char** argv) {
   auto device = Device::create(device_options(*options));
   if (!device) return complain(device.error().message);
   if (Status done = render_all(*device, *scene, *options); !done) return complain(done.error().message);
+  if (Status saved = save_pipelines(*device, *options); !saved) return complain(saved.error().message);
   if (options->validate) std::printf("validation: %llu messages\n", static_cast<unsigned long long>(device->validation_messages()));
   return device->validation_messages() > 0 ? 1 : 0;
 }

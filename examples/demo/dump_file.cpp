@@ -89,8 +89,9 @@ void decode_channels(const TexelLayout& layout, uint32_t format, const std::byte
   for (uint32_t channel = 0; channel < layout.channels; ++channel) {
     const std::byte* value = at + channel * layout.bits / 8;
     const uint32_t step = format - layout.first;
-    out[channel] = layout.bits == 8    ? decode8(value, static_cast<Numeric>(step))
-                   : layout.bits == 16 ? decode16(value, static_cast<Numeric>(step))
+    const bool linear = channel == 3 && step == static_cast<uint32_t>(Numeric::last);  // alpha of an sRGB format
+    out[channel] = layout.bits == 8    ? decode8(value, linear ? Numeric::unorm : static_cast<Numeric>(step))
+                      : layout.bits == 16 ? decode16(value, static_cast<Numeric>(step))
                                        : decode32(value, step);
   }
   if (layout.blue_first) std::swap(out[0], out[2]);

@@ -33,13 +33,19 @@ Status write_text(const std::string& path, const std::string& text) {
 }  // namespace
 
 Result<DumpPoint> find_dump(const Plan& plan, const std::string& text) {
-  const size_t dot = text.find('.');
+  // Names of both may have dots in them: the pass is the longest that there is.
+  size_t dot = text.find('.'), end = std::string::npos;
   if (dot == std::string::npos) return Error{ErrorCode::invalid_argument, "`" + text + "` is not of the form PASS.resource"};
-  DumpPoint point{find_pass(plan, text.substr(0, dot)), find_resource(plan, text.substr(dot + 1))};
-  if (point.pass == kNone)
-    return Error{ErrorCode::invalid_argument, "there is no pass `" + text.substr(0, dot) + "`; there are " + names_of(plan.passes)};
+  const std::string first = text.substr(0, dot);
+  DumpPoint point;
+  for (; dot != std::string::npos; dot = text.find('.', dot + 1)) {
+    const Index pass = find_pass(plan, text.substr(0, dot));
+    if (pass != kNone) point.pass = pass, end = dot;
+  }
+  if (point.pass == kNone) return Error{ErrorCode::invalid_argument, "there is no pass `" + first + "`; there are " + names_of(plan.passes)};
+  point.resource = find_resource(plan, text.substr(end + 1));
   if (point.resource == kNone)
-    return Error{ErrorCode::invalid_argument, "there is no resource `" + text.substr(dot + 1) + "`; there are " + names_of(plan.resources)};
+    return Error{ErrorCode::invalid_argument, "there is no resource `" + text.substr(end + 1) + "`; there are " + names_of(plan.resources)};
   return point;
 }
 

@@ -55,6 +55,7 @@ std::optional<DemoOptions> parse_options(int argc, char** argv, int& exit_code) 
   auto* watch =
       app.add_option("--watch", options.watch, "go on, and run the plans that `rgc watch` writes to this file as they come")->type_name("FILE");
   app.add_option("--reloads", options.reloads, "end after so many changes of the watched file")->needs(watch)->type_name("N");
+  app.add_option("--pipeline-cache", options.pipeline_cache, "keep compiled pipelines in this file from run to run")->type_name("FILE");
   app.add_option("--threads", options.threads, "threads that record a frame")->check(CLI::Range(1, 64))->capture_default_str();
   app.add_flag("--serial", options.serial, "every pass waits for all before it");
   app.add_flag("--poison", options.poison, "fill transients with a pattern before their first use");

@@ -19,6 +19,7 @@ struct DemoOptions {
   std::string trace, profile;      // files; empty: none
   std::string watch;               // a plan file that may be replaced; empty: none
   uint32_t reloads = 0;            // ends the watch after so many attempts; 0: never
+  std::string pipeline_cache;      // a file that keeps compiled pipelines between runs; empty: none
   uint32_t threads = 1;
   bool serial = false, poison = false;
   std::string record_spectrum;                                  // a file for the feature masks of the tiles; empty: none

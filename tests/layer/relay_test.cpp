@@ -1,6 +1,8 @@
 // A frame of three queues on a real driver: right results under every order that its waits allow, and wrong ones where a wait is missing.
 #include <algorithm>
+#include <thread>
 
+#include "runtime/device_state.h"
 #include "runtime/handles.h"
 #include "tests/layer/under_layer.h"
 #include "tests/unit/device/fixture.h"
@@ -108,6 +110,47 @@ TEST_F(Relay, IsRightUnderEverySeed) {
     options.frames_in_flight = 1 + static_cast<uint32_t>(seed) % 4;
     options.threads = 1 + static_cast<uint32_t>(seed) % 3;
     ASSERT_TRUE(run(*device, t, t.plan.view(), options)) << "seed " << seed;
+  }
+}
+
+ExternalDevice lent(Device& engine, std::span<std::mutex> mutexes, std::vector<ExternalQueue>& more) {
+  const std::vector<DeviceQueue>& queues = engine.state().queues;
+  for (size_t i = 1; i < queues.size(); ++i) more.push_back({queues[i].handle, queues[i].family, &mutexes[i]});
+  ExternalDevice out;
+  out.instance = engine.instance(), out.physical_device = engine.physical(), out.device = engine.handle();
+  out.queue = engine.queue(), out.queue_family = engine.queue_family(), out.queue_mutex = mutexes.data(), out.more_queues = more;
+  out.get_instance_proc_addr = engine.state().get_instance_proc_addr;
+  return out;
+}
+
+// Two graphs on the three queues of one engine, which submits to them as well, each from a thread of its own.
+TEST_F(Relay, SharesTheQueuesThatAnEngineLends) {
+  test::Relay t = make_relay();
+  const Plan plan = t.plan.view();
+  for (int seed = 0; seed < 5; ++seed) {
+    auto engine = open_layer(seed, false);
+    ASSERT_TRUE(engine);
+    std::mutex mutexes[3];
+    std::vector<ExternalQueue> more;
+    const ExternalDevice external = lent(*engine, mutexes, more);
+    Result<Device> one = Device::adopt(external), other = Device::adopt(external);
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->queue_count(), 3u);
+    EXPECT_EQ(one->queue_families().size(), 3u);
+    bool right = false;
+    std::thread beside([&] { right = run(*other, t, plan, {}); });
+    std::thread engines([&] {
+      VkSubmitInfo2 nothing{};
+      nothing.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+      for (int i = 0; i < 60; ++i) {
+        const DeviceQueue& queue = engine->state().queues[static_cast<size_t>(i % 3)];
+        const std::lock_guard lock(mutexes[i % 3]);
+        EXPECT_EQ(engine->vk().QueueSubmit2(queue.handle, 1, &nothing, VK_NULL_HANDLE), VK_SUCCESS);
+      }
+    });
+    EXPECT_TRUE(run(*one, t, plan, {})) << "seed " << seed;
+    beside.join(), engines.join();
+    EXPECT_TRUE(right) << "seed " << seed;
   }
 }
 

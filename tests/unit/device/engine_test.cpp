@@ -122,6 +122,24 @@ TEST_F(Engine, InstancesOnTwoThreadsAreIndependent) {
   other.join();
 }
 
+TEST_F(Engine, OnePlanRunsOnTwoDevices) {
+  RG_OPEN_DEVICE(device, false);
+  std::optional<Device> second = open(false);
+  ASSERT_TRUE(second);
+  EXPECT_NE(device.handle(), second->handle());
+  test::ClearAndCopy t = test::clear_and_copy();
+  const Plan plan = t.plan.view();
+  auto run = [&](Device& on) {
+    Result<GraphInstance> graph = GraphInstance::create(on, plan, {});
+    ASSERT_TRUE(graph) << graph.error().message;
+    for (int frame = 0; frame < 20; ++frame) RG_ASSERT_OK(graph->execute({}));
+    expect_magenta(*graph, t.result);
+  };
+  std::thread other([&] { run(*second); });
+  run(device);
+  other.join();
+}
+
 TEST_F(Engine, MovedInstancesGoOn) {
   RG_OPEN_DEVICE(device, false);
   test::ClearAndCopy t = test::clear_and_copy();

@@ -19,8 +19,7 @@ namespace rg::test {
 class DeviceTest : public testing::Test {
  protected:
   // Empty, with the test skipped or failed, where there is none.
-  std::optional<Device> open(bool validate) {
-    DeviceOptions options;
+  std::optional<Device> open(bool validate, DeviceOptions options = {}) {
     options.validate = validate;
     options.on_message = [this](bool, std::string_view message) { messages.emplace_back(message); };
     Result<Device> device = Device::create(options);

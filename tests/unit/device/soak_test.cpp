@@ -1,11 +1,13 @@
-// Random operations on a real driver, validated: resizes, other plans, other threads and frames in flight, turns, invalidations. 300 by default,
-// 10,000 with RGC_LONG.
+// Random operations on a real driver, validated: resizes, other plans, reloads, other threads and frames in flight, turns, invalidations. 300 by
+// default, 10,000 with RGC_LONG.
 #include <cstdio>
 #include <fstream>
 #include <map>
 #include <random>
 
+#include "compiler/codegen/plan_file.h"
 #include "runtime/device_state.h"
+#include "runtime/plan_file.h"
 #include "tests/unit/device/fixture.h"
 #include "tests/unit/runtime/plans.h"
 
@@ -39,6 +41,8 @@ uint64_t resident_kib() {
   return 0;
 }
 
+constexpr uint32_t kMostWords = 256;
+
 // Two variants of a plan with one history: `state` counts up by `step`; the second counts with a further copy, as a feature might.
 struct Variants {
   test::Counter plain = test::counter(), copying = test::counter();
@@ -52,19 +56,29 @@ struct Variants {
                {test::touches({copying.state, 0}, stage::copy, access::transfer_read, Layout::undefined, false),
                 test::touches({copying.result, 0}, stage::copy, access::transfer_write, Layout::undefined, true)});
     p.barriers({}, {test::to_host(copying.result)});
+    for (TestPlan* plan : {&plain.plan, &copying.plan}) size_by_extent(*plan);
   }
   using TestPlan = test::TestPlan;
+
+ private:
+  // As many words as "words" says, of which the shader counts up the first 64.
+  static void size_by_extent(TestPlan& p) {
+    p.extents.push_back({"words", 1, {64, 1, 1}, {kMostWords, 1, 1}});
+    const Index bytes = p.binary(ExprOp::mul, p.extent_axis(0), p.constant(4));
+    for (Resource& resource : p.resources) resource.bytes = bytes;
+  }
 };
 
 class Walk {
  public:
   Walk(Device& device, uint32_t seed) : random_(seed), plans_{variants_.plain.plan.view(), variants_.copying.plan.view()} {
+    for (int i = 0; i < 2; ++i) files_[i] = compiler::emit_plan_file({&plans_[i], 1});
     options_.heap = make_transient_heap();
     current_.emplace(take(GraphInstance::create(device, plans_[0], options_)));
   }
 
   void operate() {
-    switch (random_() % 8) {
+    switch (random_() % 9) {
       case 0:
         return resize();
       case 1:
@@ -74,6 +88,8 @@ class Walk {
         return go_back();
       case 4:
         return invalidate();
+      case 5:
+        return reload();
       default:
         return frames(1 + random_() % 3);
     }
@@ -81,7 +97,9 @@ class Walk {
   void check() {
     const auto words = current_->readback(variants_.plain.result);
     ASSERT_TRUE(words) << words.error().message;
-    ASSERT_EQ(test::as<uint32_t>(*words), std::vector<uint32_t>(64, expected_));
+    std::vector<uint32_t> right(words_, 7);
+    std::fill_n(right.begin(), 64, expected_);
+    ASSERT_EQ(test::as<uint32_t>(*words), right);
   }
   void finish() {
     frames(2);
@@ -105,9 +123,11 @@ class Walk {
     }
   }
   void resize() {
-    const Status done = current_->resize({});
+    words_ = 64 + static_cast<uint32_t>(random_() % 4) * (kMostWords - 64) / 3;
+    const int64_t extents[] = {words_, 1, 1};
+    const Status done = current_->resize(extents);
     ASSERT_TRUE(done) << done.error().message;
-    before_.reset();  // its history is another's now
+    before_.reset(), before_file_.reset();  // its history is another's now
     expected_ = 7;
   }
   void invalidate() {
@@ -117,27 +137,41 @@ class Walk {
     frames(1);  // another instance may go on before this one does
   }
   // Another variant, another number of threads and of frames in flight; the one before is kept for a while.
-  void succeed() {
+  void succeed() { follow(plans_[random_() % 2], std::nullopt); }
+  // From the bytes of a file, which are damaged now and then: refused, and nothing has happened.
+  void reload() {
+    std::string bytes = files_[random_() % 2];
+    if (random_() % 4 == 0) bytes[random_() % bytes.size()] ^= 4;
+    const bool good = bytes == files_[0] || bytes == files_[1];
+    const Result<PlanFile> file = PlanFile::parse(std::as_bytes(std::span(bytes)), "soak");
+    ASSERT_EQ(static_cast<bool>(file), good);
+    if (file) follow(file->plans()[0], *file);
+  }
+  void follow(const Plan& plan, const std::optional<PlanFile>& file) {
     options_.threads = 1 + static_cast<uint32_t>(random_() % 3);
     options_.frames_in_flight = 1 + static_cast<uint32_t>(random_() % 4);
     options_.serial = random_() % 5 == 0;
-    GraphInstance next = take(GraphInstance::create_successor(*current_, plans_[random_() % 2], options_));
+    GraphInstance next = take(GraphInstance::create_successor(*current_, plan, options_));
     before_.emplace(std::move(*current_));
     current_.emplace(std::move(next));
+    before_file_ = std::exchange(current_file_, file);
   }
   void go_back() {
     if (!before_) return;
     const Status followed = before_->continue_from(*current_);
     ASSERT_TRUE(followed) << followed.error().message;
     std::swap(*before_, *current_);
+    std::swap(before_file_, current_file_);
   }
 
   std::mt19937 random_;
   Variants variants_;
   Plan plans_[2];
+  std::string files_[2];
   GraphOptions options_;
+  std::optional<PlanFile> current_file_, before_file_;  // of the plans of these two
   std::optional<GraphInstance> current_, before_;
-  uint32_t expected_ = 7;
+  uint32_t expected_ = 7, words_ = 64;
 };
 
 int operations() {

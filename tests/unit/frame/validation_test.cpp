@@ -75,6 +75,23 @@ TEST(Validation, TenFramesAndThreeResizesAreSilent) {
   for (size_t i = 0; i < pictures.size(); ++i) EXPECT_LE(share_different(pictures[i], plain()[i]), 0.001) << "frame " << i;
 }
 
+// Between submits the layer sees less than within one.
+TEST(Validation, FramesOfASubmitForEachPassAreSilent) {
+  std::string messages;
+  DeviceOptions options;
+  options.validate = true;
+  options.on_message = [&](bool, std::string_view message) { messages += std::string(message) + "\n"; };
+  auto validated = Device::create(options);
+  ASSERT_TRUE(validated) << validated.error().message;
+  auto renderer = demo::Renderer::create(*validated, plaza(), {.width = 64, .height = 36, .submit_per_pass = true});
+  ASSERT_TRUE(renderer) << renderer.error().message;
+  for (uint32_t number = 0; number < 3; ++number) {
+    const Status rendered = renderer->render(prepare({64, 36}, number));
+    ASSERT_TRUE(rendered) << rendered.error().message;
+  }
+  EXPECT_EQ(messages, "");
+}
+
 TEST(Pictures, AreTheSameWithoutAliasing) { expect_same(render_and_resize(device(), {.aliasing = false})); }
 TEST(Pictures, AreTheSameOneFrameAtATime) { expect_same(render_and_resize(device(), {.frames_in_flight = 1})); }
 TEST(Pictures, AreTheSameOnPoisonedMemory) { expect_same(render_and_resize(device(), {.poison = true})); }

@@ -164,7 +164,14 @@ TEST(Failures, ALostDeviceIsReportedOnceAndLeftAlone) {
     {
       Device device = Device::null(nullptr, options);
       Result<GraphInstance> graph = GraphInstance::create(device, t.plan.view(), {});
-      if (!graph) continue;
+      if (!graph) {
+        EXPECT_EQ(graph.error().code, ErrorCode::device_lost) << graph.error().message;
+        const uint64_t before = counters.fallible_calls;
+        EXPECT_EQ(GraphInstance::create(device, t.plan.view(), {}).error().code, ErrorCode::device_lost);
+        EXPECT_EQ(device.wait_idle().error().code, ErrorCode::device_lost);
+        EXPECT_EQ(counters.fallible_calls, before);
+        continue;
+      }
       Status status = graph->execute(inputs());
       for (int frame = 0; frame < 8 && status; ++frame) status = graph->execute(inputs());
       if (status) continue;
