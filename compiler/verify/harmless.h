@@ -29,8 +29,6 @@ class Harmless {
   std::string not_stored(Index attachment) const;
   // The release claims to stand a point earlier.
   std::string released_earlier(Index release) const;
-  // The passes of two steps change places; none stands between them.
-  std::string exchanged(Index first_step, Index second_step) const;
   // A half of the split group is moved over these steps.
   std::string moved(Index group, Index first_step, Index last_step, bool sets) const;
   // The pass of this step and the next one change places.
