@@ -102,21 +102,23 @@ bool Harmless::leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) 
   return false;
 }
 
-bool Harmless::names(const BarrierGroup& group, const Access& access) const {
+// `sources`: in its first scope, else in its second.
+bool Harmless::names(const BarrierGroup& group, const Access& access, bool sources) const {
+  const auto meets = [&](const auto& barrier) { return ((sources ? barrier.src_stages : barrier.dst_stages) & access.stages) != 0; };
   for (const ImageBarrier& barrier : plan_.image_barriers.subspan(group.first_image, group.image_count))
-    if (barrier.image == access.ref && meet(barrier.range, access.range)) return true;
+    if (barrier.image == access.ref && meet(barrier.range, access.range) && (meets(barrier) || barrier.old_layout != barrier.new_layout)) return true;
   for (const BufferBarrier& barrier : plan_.buffer_barriers.subspan(group.first_buffer, group.buffer_count))
-    if (barrier.buffer == access.ref) return true;
+    if (barrier.buffer == access.ref && meets(barrier)) return true;
   return group.memory_count != 0;
 }
 
-// What uses nothing that the group's barriers name is ordered by others, and readers may be: any barrier goes on from their stages.
+// What uses nothing that the group's barriers name, in their stages, is ordered by others, and readers may be: any barrier goes on from their stages.
 std::string Harmless::moved(Index group, Index first_step, Index last_step, bool sets) const {
   bool over_readers = false;
   for (Index s = first_step; s <= last_step; ++s) {
     if (plan_.steps[s].kind != StepKind::pass) continue;
     for (const Access& access : accesses_of(plan_.steps[s].index)) {
-      if (!names(plan_.groups[group], access)) continue;
+      if (!names(plan_.groups[group], access, sets)) continue;
       if (!sets || access.writes) return "";
       over_readers = true;
     }

@@ -38,7 +38,7 @@ class Harmless {
   std::span<const Access> accesses_of(Index pass) const {
     return plan_.accesses.subspan(plan_.passes[pass].first_access, plan_.passes[pass].access_count);
   }
-  bool names(const BarrierGroup& group, const Access& access) const;
+  bool names(const BarrierGroup& group, const Access& access, bool sources) const;
   bool is_waited_for(Index image_barrier, uint32_t mip, uint32_t layer) const;
   bool leads(Index from, Stages stages, Index to, Stages second) const;
   bool holds(const Step& step, Index image_barrier) const;
