@@ -283,7 +283,8 @@ SegmentResult search_segments(const SegmentProblem& problem, Effort effort, Pref
   search.consider(earliest);
   const std::vector<uint32_t> counts = counts_to_try(least, problem.nodes, effort, prefer);
   // A chain has one order, and moves would only find that out again and again.
-  if (counts.back() == least && latest_segments(problem, least) == earliest) return std::move(search).choose(packing_effort(problem, effort));
+  if (counts.back() == least && latest_segments(problem, least) == earliest)
+    return std::move(search).choose(effort == Effort::fast ? PackingEffort{} : PackingEffort{packing_effort(problem, effort).effort, 0});
   for (const uint32_t count : counts) {
     if (effort == Effort::fast && count != counts.front() && count != counts.back()) continue;
     search.consider(latest_segments(problem, count));

@@ -12,6 +12,7 @@
 //      a third where conflicts are given
 //   2. repair by ejection (packing_ejection.h) at the bound and at capacities between it and the best, for three quarters of the effort
 //   3. exact search (packing_search.h) at such capacities for the rest, where effort is large enough to set it up
+// Where millions of pairs would conflict nothing of this is tried: packing_crowd.h.
 // Deterministic: effort counts work, never time. Cost: O(conflicts * log n) a decode.
 //
 // Header only, standard library only: compiler and runtime place with the same code.
@@ -19,6 +20,7 @@
 
 #include <functional>
 
+#include "runtime/packing_crowd.h"
 #include "runtime/packing_ejection.h"
 #include "runtime/packing_search.h"
 #include "runtime/packing_values.h"
@@ -31,92 +33,6 @@ inline constexpr uint64_t kDefaultEffort = 2'000'000;
 inline constexpr uint64_t kPlacementEffort = 100'000;
 
 namespace detail {
-
-// Heights over time, for crowds: each item lies on the highest of what lives with it. O(log n) an item, whatever the number of pairs.
-class Skyline {
- public:
-  explicit Skyline(size_t times) : size_(std::max<size_t>(times, 1)), height_(4 * size_, 0), assigned_(4 * size_, 0) {}
-
-  uint64_t highest(size_t begin, size_t end) const { return highest(1, 0, size_, begin, end); }
-  void raise(size_t begin, size_t end, uint64_t height) { raise(1, 0, size_, begin, end, height); }
-
- private:
-  uint64_t highest(size_t node, size_t low, size_t high, size_t begin, size_t end) const {
-    if (end <= low || high <= begin) return 0;
-    if (begin <= low && high <= end) return height_[node];
-    const size_t middle = (low + high) / 2;
-    const uint64_t below = std::max(highest(2 * node, low, middle, begin, end), highest(2 * node + 1, middle, high, begin, end));
-    return std::max(assigned_[node], below);
-  }
-  // New heights are never below those they replace, so marks need not be pushed down: the greatest mark on the way counts.
-  void raise(size_t node, size_t low, size_t high, size_t begin, size_t end, uint64_t height) {
-    if (end <= low || high <= begin) return;
-    height_[node] = std::max(height_[node], height);
-    if (begin <= low && high <= end) {
-      assigned_[node] = std::max(assigned_[node], height);
-      return;
-    }
-    const size_t middle = (low + high) / 2;
-    raise(2 * node, low, middle, begin, end, height);
-    raise(2 * node + 1, middle, high, begin, end, height);
-  }
-  size_t size_;
-  std::vector<uint64_t> height_, assigned_;
-};
-
-// Both decodes of crowds do without conflict lists. In the order given, each item on the highest of what lives with it:
-inline Placement stack_crowd(std::span<const Item> items, const Load& load, const Order& order) {
-  Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
-  Skyline skyline(load.times.size());
-  for (const uint32_t i : order) {
-    const size_t begin = load.at(items[i].begin), end = load.at(items[i].end);
-    placement.offsets[i] = align_up(skyline.highest(begin, end), items[i].alignment);
-    skyline.raise(begin, end, placement.offsets[i] + items[i].bytes);
-    placement.heap_bytes = std::max(placement.heap_bytes, placement.offsets[i] + items[i].bytes);
-  }
-  return placement;
-}
-
-// Lowest offset first. Offsets only rise, so an item is looked at again only when it is the lowest by what was known; gives nothing where items would
-// be looked at more than `looks` times in all, as they are where everything lives together.
-inline Placement decode_crowd(std::span<const Item> items, const Load& load, const Order& order, size_t looks) {
-  Placement placement{std::vector<uint64_t>(items.size()), 0, load.peak};
-  Skyline skyline(load.times.size());
-  std::vector<std::pair<uint64_t, uint32_t>> heap;  // offset, rank
-  for (uint32_t rank = 0; rank < order.size(); ++rank) heap.emplace_back(0, rank);
-  for (; !heap.empty() && looks > 0; --looks) {
-    std::pop_heap(heap.begin(), heap.end(), std::greater<>());
-    const uint32_t item = order[heap.back().second];
-    const size_t begin = load.at(items[item].begin), end = load.at(items[item].end);
-    const uint64_t offset = align_up(skyline.highest(begin, end), items[item].alignment);
-    if (offset != heap.back().first) {
-      heap.back().first = offset;
-      std::push_heap(heap.begin(), heap.end(), std::greater<>());
-      continue;
-    }
-    heap.pop_back();
-    skyline.raise(begin, end, offset + items[item].bytes);
-    placement.offsets[item] = offset;
-    placement.heap_bytes = std::max(placement.heap_bytes, offset + items[item].bytes);
-  }
-  if (!heap.empty()) placement.heap_bytes = std::numeric_limits<uint64_t>::max();
-  return placement;
-}
-
-inline Placement pack_crowd(std::span<const Item> items) {
-  const Load load = load_of(items);
-  const auto [T, Z, W, A] = measures_of(items);
-  const size_t n = items.size();
-  Placement best{{}, std::numeric_limits<uint64_t>::max(), load.peak};
-  const auto keep = [&](Placement placement) {
-    if (placement.heap_bytes < best.heap_bytes) best = std::move(placement);
-  };
-  for (const Order& order : {sorted(n, {&T, &A, &W}), sorted(n, {&T, &W, &A}), sorted(n, {&A}), sorted(n, {&W, &A, &T})}) {
-    if (best.heap_bytes > load.peak) keep(stack_crowd(items, load, order));
-    if (best.heap_bytes > load.peak) keep(decode_crowd(items, load, order, 256 * n));
-  }
-  return best;
-}
 
 inline uint64_t top_of(std::span<const Item> items, const std::vector<uint64_t>& offsets) {
   uint64_t top = 0;
@@ -292,12 +208,14 @@ inline uint64_t lower_bound(std::span<const Item> items) { return detail::load_o
 
 // Items conflict where their lives meet.
 inline Placement pack(std::span<const Item> items, uint64_t effort = kDefaultEffort) {
+  if (items.size() > detail::kMostSearched && detail::count_meeting_pairs(items) > detail::kMostPairs / 4)
+    if (Placement swept = detail::sweep_crowd(items, detail::load_of(items)); swept.heap_bytes == swept.lower_bound_bytes) return swept;
   std::vector<Conflict> pairs;
   const bool listed = detail::for_each_meeting_pair(items, [&](uint32_t a, uint32_t b) {
     pairs.emplace_back(a, b);
     return pairs.size() < detail::kMostPairs;
   });
-  if (!listed) return detail::pack_crowd(items);
+  if (!listed) return detail::pack_crowd(items, effort);
   const bool searched = items.size() <= detail::kMostSearched && effort >= detail::kLeastSearchEffort * items.size();
   const uint64_t repairs = searched ? effort / 4 * 3 : effort;
   Placement best = detail::Packer(items, pairs, true, lower_bound(items), repairs).run();

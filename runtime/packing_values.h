@@ -70,7 +70,7 @@ bool for_each_meeting_pair(std::span<const Item> items, Visit visit) {
   return true;
 }
 
-// Beyond this many pairs the conflict lists cost more than they are worth; see Skyline.
+// Beyond this many pairs the conflict lists cost more than they are worth; see packing_crowd.h.
 inline constexpr size_t kMostPairs = 4'000'000;
 
 inline uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }

@@ -174,6 +174,20 @@ TEST(Packing, ManyItemsAtOnceAreStacked) {
   EXPECT_EQ(placement.heap_bytes, placement.lower_bound_bytes);
 }
 
+// More than 4,000,000 pairs meet. An allocator that looks at what is free does best with items of one size, and well with others.
+TEST(Packing, CrowdsThatComeAndGo) {
+  for (const bool even : {true, false}) {
+    std::mt19937 random(7);
+    std::vector<Item> items;
+    for (uint32_t i = 0; i < 4'200; ++i)
+      items.push_back({even ? 4096 : 256 * (1 + random() % 64), 256, i, i + 1300 + static_cast<uint32_t>(random() % 600)});
+    const Placement placement = pack(items);
+    EXPECT_EQ(placement.lower_bound_bytes, greatest_live_sum(items));
+    EXPECT_EQ(find_fault(items, placement), std::nullopt);
+    EXPECT_LE(placement.heap_bytes, even ? placement.lower_bound_bytes : placement.lower_bound_bytes * 6 / 5);
+  }
+}
+
 // The exact search finds every optimum and refutes one byte less.
 TEST(Packing, FitFindsTheOptimumAndProvesThatNothingIsBetter) {
   for (uint32_t seed = 0; seed < 150; ++seed) {
