@@ -150,6 +150,7 @@ Result<Device> Device::adopt(const ExternalDevice& external) {
   for (const ExternalQueue& queue : external.more_queues) add_queue(*state, queue);
   state->sampler_anisotropy = external.features.sampler_anisotropy;
   state->multi_draw_indirect = external.features.multi_draw_indirect;
+  state->draw_indirect_count = external.features.draw_indirect_count;
   state->host_query_reset = external.features.host_query_reset;
   state->pipeline_statistics = external.features.pipeline_statistics;
   state->load_op_none = external.features.load_op_none;

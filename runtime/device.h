@@ -38,10 +38,11 @@ struct ExternalQueue {
   uint32_t family = 0;
   std::mutex* mutex = nullptr;
 };
-// Optional device features and extensions that an engine has enabled. What is false is never used; each has a fallback.
+// Optional device features and extensions that an engine has enabled. What is false is never used; each has a fallback but one.
 struct EnabledFeatures {
   bool sampler_anisotropy = false;   // else samplers are isotropic
   bool multi_draw_indirect = false;  // else one call a draw
+  bool draw_indirect_count = false;  // else plans whose numbers of draws come from buffers are refused
   bool host_query_reset = false;     // else only passes of graphics and compute queues are timed
   bool pipeline_statistics = false;  // else there are none
   bool load_op_none = false;         // VK_EXT_load_store_op_none; else attachments that are not touched are loaded

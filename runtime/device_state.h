@@ -63,7 +63,7 @@ struct Device::State {
   bool classic_render_passes = false;  // the validation layer is blind to attachments of dynamic rendering
   bool load_op_none = false;
   bool sampler_anisotropy = false;
-  bool multi_draw_indirect = false;
+  bool multi_draw_indirect = false, draw_indirect_count = false;
   bool host_query_reset = false;
   bool pipeline_statistics = false;
   uint32_t capabilities = 0, without = 0;  // bits of Capability: present, and not to be looked for

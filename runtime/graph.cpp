@@ -163,6 +163,17 @@ Status rebuild(GraphInstance::State& state, std::span<const int64_t> extents, co
 
 namespace {
 
+// How many draws there are is known to the GPU alone: nothing else does the same.
+Status check_draws(const Device::State& device, const Plan& plan) {
+  for (const Pass& pass : plan.passes) {
+    const bool counted = pass.work.kind == WorkKind::draw_indirect_count || pass.work.kind == WorkKind::draw_indexed_indirect_count;
+    if (counted && !device.draw_indirect_count)
+      return Error{ErrorCode::unsupported, "pass `" + std::string(pass.name) + "` takes the number of its draws from a buffer, which `" +
+                                               device.name + "` cannot (drawIndirectCount)"};
+  }
+  return Done{};
+}
+
 Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device, const Plan& plan, const GraphOptions& options,
                                                            const Predecessor* before) {
   RG_TRY(check_plan(plan));
@@ -172,6 +183,7 @@ Result<std::unique_ptr<GraphInstance::State>> create_state(Device::State& device
     if ((device.capabilities & bit(capability)) == 0)
       return Error{ErrorCode::unsupported, "plan `" + std::string(plan.name) + "` is for devices with " + std::string(name(capability)) +
                                                ", which `" + device.name + "` lacks; take another variant of it"};
+  RG_TRY(check_draws(device, plan));
   state->features.resize(plan.features.size());
   count_slots(*state);
   RG_TRY(create_samplers(state->context, state->objects));

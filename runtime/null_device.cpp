@@ -392,7 +392,7 @@ void fill_description(Device::State& state, const NullOptions& options) {
   state.name = "null";
   state.identity = kIdentity;
   state.pipeline_statistics = true;
-  state.sampler_anisotropy = state.multi_draw_indirect = true;
+  state.sampler_anisotropy = state.multi_draw_indirect = state.draw_indirect_count = true;
   state.limits.timestampPeriod = 1;
   state.limits.maxImageDimension1D = state.limits.maxImageDimension2D = state.limits.maxImageDimension3D = kImageSide;
   state.limits.maxImageDimensionCube = kImageSide;

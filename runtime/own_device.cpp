@@ -249,6 +249,7 @@ void enable_features(Device::State& state, FeatureChain& wanted) {
   enable_available(wanted, available);
   state.sampler_anisotropy = wanted.core.features.samplerAnisotropy == VK_TRUE;
   state.multi_draw_indirect = wanted.core.features.multiDrawIndirect == VK_TRUE;
+  state.draw_indirect_count = wanted.v12.drawIndirectCount == VK_TRUE;
   state.pipeline_statistics = wanted.core.features.pipelineStatisticsQuery == VK_TRUE;
   state.host_query_reset = wanted.v12.hostQueryReset == VK_TRUE;
 }

@@ -1,4 +1,5 @@
 // What a caller can get wrong, and what the engine brings along every frame.
+#include "runtime/device_state.h"
 #include "tests/unit/runtime/null_fixture.h"
 #include "tests/unit/runtime/plans.h"
 
@@ -266,13 +267,24 @@ TEST_F(Inputs, BuffersAreImportedWithTheirOffset) {
 
 // ---- indirect work ------------------------------------------------------------------------------------------------
 
-TEST_F(Inputs, IndirectWorkReadsItsArgumentsAtTheirOffset) {
-  test::TestPlan p;
+struct Indirect {
+  test::TestPlan plan;
+  Pass pass;
+};
+Indirect indirect() {
+  Indirect t;
+  test::TestPlan& p = t.plan;
   const Index arguments = p.buffer("arguments", p.constant(256), test::kIndirectBuffer),
               counts = p.buffer("counts", p.constant(4), test::kIndirectBuffer);
-  Pass pass;
-  pass.name = "indirect", pass.kind = PassKind::raster;
-  pass.work.arguments = {arguments, 0}, pass.work.arguments_offset = p.constant(32), pass.work.counts = {counts, 0}, pass.work.max_draws = 4;
+  t.pass.name = "indirect", t.pass.kind = PassKind::raster;
+  t.pass.work.arguments = {arguments, 0}, t.pass.work.arguments_offset = p.constant(32), t.pass.work.counts = {counts, 0};
+  t.pass.work.max_draws = 4;
+  return t;
+}
+
+TEST_F(Inputs, IndirectWorkReadsItsArgumentsAtTheirOffset) {
+  Indirect t = indirect();
+  auto& [p, pass] = t;
   for (const WorkKind kind :
        {WorkKind::draw_indirect, WorkKind::draw_indexed_indirect, WorkKind::draw_indirect_count, WorkKind::draw_indexed_indirect_count}) {
     pass.work.kind = kind, pass.work.stride = kind == WorkKind::draw_indirect || kind == WorkKind::draw_indirect_count ? 16 : 20;
@@ -287,6 +299,32 @@ TEST_F(Inputs, IndirectWorkReadsItsArgumentsAtTheirOffset) {
   EXPECT_EQ(test::calls(text, "vkCmdDrawIndirectCount").at(0), "vkCmdDrawIndirectCount commands2 buffer1 32 buffer2 0 4 16");
   EXPECT_EQ(test::calls(text, "vkCmdDrawIndexedIndirectCount").at(0), "vkCmdDrawIndexedIndirectCount commands2 buffer1 32 buffer2 0 4 20");
   EXPECT_EQ(test::calls(text, "vkCmdDispatchIndirect").at(0), "vkCmdDispatchIndirect commands2 buffer1 32");
+}
+
+TEST_F(Inputs, DrawsAreCallsOfTheirOwnWhereTheDeviceWantsThem) {
+  Indirect t = indirect();
+  t.pass.work.kind = WorkKind::draw_indexed_indirect, t.pass.work.stride = 20;
+  t.plan.pass(t.pass);
+  device.state().multi_draw_indirect = false;
+  GraphInstance graph = make(t.plan);
+  EXPECT_EQ(test::calls(frame(graph), "vkCmdDrawIndexedIndirect "),
+            (std::vector<std::string>{"vkCmdDrawIndexedIndirect commands2 buffer1 32 1 20", "vkCmdDrawIndexedIndirect commands2 buffer1 52 1 20",
+                                      "vkCmdDrawIndexedIndirect commands2 buffer1 72 1 20", "vkCmdDrawIndexedIndirect commands2 buffer1 92 1 20"}));
+}
+
+TEST_F(Inputs, CountedDrawsAreRefusedWithoutTheFeature) {
+  for (const WorkKind kind : {WorkKind::draw_indirect_count, WorkKind::draw_indexed_indirect_count}) {
+    Indirect t = indirect();
+    t.pass.work.kind = kind, t.pass.work.stride = kind == WorkKind::draw_indirect_count ? 16 : 20;
+    t.plan.pass(t.pass);
+    device.state().draw_indirect_count = true;
+    EXPECT_TRUE(GraphInstance::create(device, t.plan.view(), {}));
+    device.state().draw_indirect_count = false;
+    const auto refused = GraphInstance::create(device, t.plan.view(), {});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::unsupported);
+    EXPECT_EQ(refused.error().message, "pass `indirect` takes the number of its draws from a buffer, which `null` cannot (drawIndirectCount)");
+  }
 }
 
 }  // namespace
