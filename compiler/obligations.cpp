@@ -210,7 +210,10 @@ class CellWalk {
       if ((effect.reads & supported_accesses(stage)) == 0) return;
       // Whoever waits for a write of the stage waits for what it reads, too.
       if ((effect.write_stages & stage) && (effect.writes & supported_accesses(stage))) return;
-      std::erase_if(state.reads, [&](const Pending& read) { return read.queue == event.queue && read.stage == stage; });
+      // Who writes later in the same rendering waits for the earlier read, and not for this one.
+      std::erase_if(state.reads, [&](const Pending& read) {
+        return read.queue == event.queue && read.stage == stage && (!epoch.writes || together(read, event, epoch));
+      });
       note(add_read(state, event.queue, stage, point, false), event, epoch);
     });
     each_bit(effect.write_stages, [&](Stages stage) {

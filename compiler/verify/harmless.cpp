@@ -42,32 +42,33 @@ std::string Harmless::unseen(Index image_barrier, Stages stage, Accesses access)
   const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
   const bool follows = stage == stage::late_fragment_tests && (barrier.dst_stages & stage::early_fragment_tests) != 0 &&
                        (barrier.dst_accesses & access::depth_stencil_attachment_write) == 0;
-  const bool tests = follows || access == access::depth_stencil_attachment_read;
-  return tests && is_cleared_before_tests(image_barrier) ? kOwnClear : "";
+  if (follows || access == access::depth_stencil_attachment_read)
+    return is_cleared_first(image_barrier, aspect_depth | aspect_stencil) ? kOwnClear : "";
+  return access == access::color_attachment_read && is_cleared_first(image_barrier, aspect_color) ? "blending with what the rendering drew" : "";
 }
 
-// Whoever tests behind a clear waits for that, be it skipped or not, and so for what was before.
-bool Harmless::is_cleared_before_tests(Index image_barrier) const {
+// Whoever tests, or blends, behind a clear waits for that, be it skipped or not, and so for what was before.
+bool Harmless::is_cleared_first(Index image_barrier, uint32_t aspects) const {
   const ImageBarrier& barrier = plan_.image_barriers[image_barrier];
   const Resource& image = plan_.resources[barrier.image.resource];
   const auto step = std::find_if(plan_.steps.begin(), plan_.steps.end(), [&](const Step& each) { return holds(each, image_barrier); });
-  bool all = (barrier.range.aspects & (aspect_depth | aspect_stencil)) != 0;
-  for (const uint32_t aspect : {aspect_depth, aspect_stencil})
+  bool all = (barrier.range.aspects & aspects) != 0;
+  for (const uint32_t aspect : {aspect_color, aspect_depth, aspect_stencil})
     for (uint32_t mip = barrier.range.mip; mip - barrier.range.mip < barrier.range.mips && mip < image.mips; ++mip)
       for (uint32_t layer = barrier.range.layer; layer - barrier.range.layer < barrier.range.layers && layer < image.layers; ++layer)
-        if (barrier.range.aspects & aspect) all = all && is_cleared_before_tests(step, barrier.image, {aspect, mip, 1, layer, 1});
+        if (barrier.range.aspects & aspects & aspect) all = all && is_cleared_first(step, barrier.image, {aspect, mip, 1, layer, 1});
   return all;
 }
 
-bool Harmless::is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const {
+bool Harmless::is_cleared_first(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const {
   for (; from != plan_.steps.end(); ++from) {
     if (from->kind != StepKind::pass || plan_.passes[from->index].rendering == kNone) continue;
     const Rendering& rendering = plan_.renderings[plan_.passes[from->index].rendering];
-    for (const Index attachment : {rendering.depth, rendering.stencil}) {
-      if (attachment == kNone) continue;
-      const Attachment& row = plan_.attachments[attachment];
-      if (row.ref == image && meet(row.range, spot)) return row.load != LoadOp::load;
-    }
+    std::vector<Index> attachments{rendering.depth, rendering.stencil};
+    for (Index i = 0; i < rendering.color_count; ++i) attachments.push_back(rendering.first_color + i);
+    for (const Index attachment : attachments)
+      if (attachment != kNone && plan_.attachments[attachment].ref == image && meet(plan_.attachments[attachment].range, spot))
+        return plan_.attachments[attachment].load != LoadOp::load;
   }
   return plan_.resources[image.resource].lifetime == Lifetime::transient;
 }

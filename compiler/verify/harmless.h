@@ -46,8 +46,8 @@ class Harmless {
   bool may_skip(Index pass, const Ref& image, uint32_t mip) const;
   bool leads_to_tests(const BarrierGroup& group, Stages from) const;
   bool is_cleared_first(const Pass& pass, bool may_clear, std::vector<Attachment>& cleared) const;
-  bool is_cleared_before_tests(Index image_barrier) const;
-  bool is_cleared_before_tests(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const;
+  bool is_cleared_first(Index image_barrier, uint32_t aspects) const;
+  bool is_cleared_first(std::span<const Step>::iterator from, const Ref& image, const Range& spot) const;
   bool draws_to(const Pass& pass, Index attachment) const;
   bool leaves_layout(Index image_barrier, uint32_t mip, uint32_t layer) const;
 

@@ -148,6 +148,7 @@ bool is_right_without(const CellState& state, const Use& use, uint32_t queue) {
 // All touches of one pass on one cell: what is checked against the state before, and recorded together.
 struct CellUse {
   bool touched = false, may_skip = false;
+  bool settles = true;  // no other pass of the same rendering follows, which would wait for what came before and not for this pass
   uint64_t order = 0;
   StageSet read_stages = 0;
   AccessSet writes[kStageCount] = {};
@@ -176,7 +177,8 @@ void record_reads(Replay& replay, uint32_t pass, const CellUse& use, CellState& 
   for (uint32_t s = 0; s < kStageCount; ++s) {
     // A later access that waits for this pass's write in a stage waits for its read there as well.
     if (!(use.read_stages & stage_bit(s)) || use.writes[s]) continue;
-    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.queue == queue && read.stage == s; });
+    std::erase_if(state.reads,
+                  [&](const ReadRecord& read) { return read.queue == queue && read.stage == s && (use.settles || read.order == use.order); });
     state.reads.push_back(make_read(replay.history, site_of(queue, s), pass, replay.frame, use.order));
   }
 }
@@ -185,8 +187,10 @@ void record_writes(Replay& replay, uint32_t pass, const CellUse& use, CellState&
   const uint32_t queue = replay.model.passes[pass].queue;
   const bool commuting = use.order != 0 && !(use.order & kRenderingOrder);
   if (!use.may_skip && !commuting) {
-    std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || read.frame != replay.frame; });
-    state.writes.clear();
+    if (use.settles) {
+      std::erase_if(state.reads, [&](const ReadRecord& read) { return read.pass != pass || read.frame != replay.frame; });
+      state.writes.clear();
+    }
     state.without = {};
   }
   for (uint32_t s = 0; s < kStageCount; ++s)
@@ -218,6 +222,7 @@ void check_use(Replay& replay, const PassNode& node, const Use& use, std::map<ui
     // Two accesses of one pass to one cell: they share an order only if both have it.
     cell_use.order = cell_use.touched && cell_use.order != order ? 0 : order;
     cell_use.touched = true;
+    cell_use.settles = cell_use.settles && (!use.attachment || node.last_in_rendering);
     cell_use.may_skip = replay.model.may_skip(node.plan_pass, use.resource, use.cells[i]);
     gather(cell_use, use);
   }

@@ -71,6 +71,21 @@ TEST(Harmless, EveryLayerIsClearedFirst) {
   }
 }
 
+TEST(Harmless, BlendingWithWhatTheRenderingDrew) {
+  for (const bool covered : {false, true}) {
+    Damaged d;
+    const auto x = d.Builder::image("x");
+    d.lifetime(x, dsl::Lifetime::transient);
+    d.image_barrier(x, Layout::general, Layout::color_attachment, stage::color_attachment_output, 0, stage::color_attachment_output,
+                    access::color_attachment_read | access::color_attachment_write, {aspect_color, 0, 1, 0, 1});
+    d.raster("draw", {covered ? writes(x, Role::color).covering() : updates(x, Role::color)});
+    d.raster("blend", {updates(x, Role::color)});
+    d.merge_rendering();
+    EXPECT_EQ(d.harmless().unseen(0, 0, access::color_attachment_read), covered ? "blending with what the rendering drew" : "");
+    EXPECT_EQ(d.harmless().unseen(0, 0, access::color_attachment_write), "");
+  }
+}
+
 TEST(Harmless, NextFrameMayTest) {
   for (const dsl::Lifetime lifetime : {dsl::Lifetime::transient, dsl::Lifetime::persistent}) {
     Damaged d;

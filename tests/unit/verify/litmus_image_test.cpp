@@ -7,6 +7,20 @@ namespace {
 constexpr auto kTests = stage::early_fragment_tests | stage::late_fragment_tests;
 constexpr auto kDepthWrite = access::depth_stencil_attachment_write, kDepthRead = access::depth_stencil_attachment_read;
 
+// One rendering only tests; the next one tests, and then draws. `ordered`: stages of the second for which it waits.
+void test_then_draw(Builder& b, Stages ordered) {
+  const auto x = b.image("x", Format::d32f);
+  const Do tests = reads(x, Role::depth_readonly).in(Layout::depth_attachment);
+  b.start(x, Layout::depth_attachment, kTests, kDepthRead | kDepthWrite);
+  b.raster("clear", {writes(x, Role::depth).cleared()});
+  b.memory(kTests, kDepthWrite, kTests, kDepthRead | kDepthWrite);
+  b.raster("test", {tests.with(LoadOp::load, StoreOp::none)});
+  b.memory(kTests, 0, ordered, 0);
+  b.raster("test again", {tests});
+  b.raster("draw", {updates(x, Role::depth)});
+  b.merge_rendering();
+}
+
 const Litmus kImageCases[] = {
     {"SampleAfterStorageWrite",
      "Layout transition inside the memory dependency",
@@ -286,6 +300,14 @@ const Litmus kImageCases[] = {
        b.raster("w2", {updates(x, Role::color)});
        b.merge_rendering();
      }},
+    {"TestBeforeADrawOfTheSameRendering",
+     "A draw comes after tests of the rendering before, also where a pass of its own has tested in between",
+     {},
+     [](Builder& b) { test_then_draw(b, kTests); }},
+    {"TestThatHidesAnotherFromADrawOfTheSameRendering",
+     "As above; rasterization order, which the draw keeps with the test of its own rendering, leads to no rendering before",
+     {"write-after-read"},
+     [](Builder& b) { test_then_draw(b, st::late_fragment_tests); }},
     {"LoadAfterComputeWrite",
      "LOAD_OP_LOAD reads what compute wrote",
      {"read-after-write", "write-after-write"},
