@@ -193,7 +193,7 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
     rules.checker.report(kind, other.span, {b.name, std::move(one), std::move(two)}).note(DiagnosticKind::OtherAttachment, first.span);
   };
   const bool same_formula = a.width == b.width && a.height == b.height && first.range.mip == other.range.mip;
-  for (const auto& extents : {initial_extents(rules.checker.program), maximum_extents(rules.checker.program)}) {
+  for (const auto& extents : telling_extents(rules.checker.program, {a.width, a.height, b.width, b.height})) {
     if (same_formula) break;
     const std::string one = size_text(rules, first, extents), two = size_text(rules, other, extents);
     if (one != two) return report(DiagnosticKind::AttachmentSizes, two, one);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <numeric>
 
 #include "dsl/check_state.h"
 
@@ -67,17 +68,24 @@ int64_t block_bytes(const Half& image) {
   return info(image.resource.format).block_bytes;
 }
 
+// Of each mip that there is, all layers.
+std::vector<int64_t> mip_bytes(const Checker& checker, const Half& image, const Extents& extents) {
+  std::vector<int64_t> bytes;
+  const Range& range = image.range;
+  for (uint32_t mip = range.mip; mip < range.mip + mip_count(image.resource, range) && has_mip(checker, image.resource, mip, extents); ++mip) {
+    const auto blocks = blocks_of(checker, image.resource, mip, extents);
+    bytes.push_back(blocks[0] * blocks[1] * blocks[2] * layer_count(image.resource, range) * block_bytes(image));
+  }
+  return bytes;
+}
+
 int64_t bytes_of(const Checker& checker, const Half& half, const Extents& extents) {
-  if (!half.is_image()) {
-    if (half.range.size.valid()) return evaluate(checker.program, half.range.size, extents);
-    return evaluate(checker.program, half.resource.count, extents) * int64_t{half.resource.stride};
+  if (half.is_image()) {
+    const auto mips = mip_bytes(checker, half, extents);
+    return std::accumulate(mips.begin(), mips.end(), int64_t{0});
   }
-  int64_t blocks = 0;
-  for (uint32_t i = 0; i < mip_count(half.resource, half.range) && has_mip(checker, half.resource, half.range.mip + i, extents); ++i) {
-    const auto sides = blocks_of(checker, half.resource, half.range.mip + i, extents);
-    blocks += sides[0] * sides[1] * sides[2];
-  }
-  return blocks * layer_count(half.resource, half.range) * block_bytes(half);
+  if (half.range.size.valid()) return evaluate(checker.program, half.range.size, extents);
+  return evaluate(checker.program, half.resource.count, extents) * int64_t{half.resource.stride};
 }
 
 std::string size_text(const Checker& checker, const Half& half, const Extents& extents) {
@@ -158,15 +166,20 @@ bool bytes_fit(const Move& move, const Extents& extents) {
   return report_rest(move, extents, "name the bytes that it gets, `" + move.dst.resource.name + ".bytes(offset, size)`");
 }
 
-bool offset_fits(const Move& move, const Half& buffer, const Half& image, const Extents& extents) {
-  constexpr int64_t kWord = 4;  // of depth and stencil, which may be narrower
+// Each mip of the image begins at a whole texel, and at a whole word if it is of depth or stencil, which may be narrower.
+bool offsets_fit(const Move& move, const Half& buffer, const Half& image, const Extents& extents) {
+  constexpr int64_t kWord = 4;
   const int64_t step = info(image.resource.format).is_color() ? block_bytes(image) : kWord;
-  const int64_t offset = buffer.range.offset.valid() ? evaluate(move.checker.program, buffer.range.offset, extents) : 0;
-  if (offset % step == 0) return true;
-  move.checker.report(DiagnosticKind::TransferAlignment, move.span,
-                      {"copy", "an offset", std::to_string(step), buffer.resource.name, std::to_string(bytes_of(move.checker, buffer, extents)),
-                       std::to_string(offset)});
-  return false;
+  int64_t offset = buffer.range.offset.valid() ? evaluate(move.checker.program, buffer.range.offset, extents) : 0;
+  for (const int64_t bytes : mip_bytes(move.checker, image, extents)) {
+    if (offset % step != 0) {
+      move.checker.report(DiagnosticKind::TransferAlignment, move.span,
+                          {"copy", "an offset", std::to_string(step), buffer.resource.name, std::to_string(bytes), std::to_string(offset)});
+      return false;
+    }
+    offset += bytes;
+  }
+  return true;
 }
 
 // Nobody knows how long a buffer is that the host sizes.
@@ -175,8 +188,8 @@ bool is_sized(const Half& half) { return half.is_image() || half.range.size.vali
 bool fits_at(const Move& move, const Extents& extents) {
   if (!runs(move, extents)) return true;
   if (move.src.is_image() && move.dst.is_image()) return images_fit(move, extents);
-  if (move.dst.is_image() && !offset_fits(move, move.src, move.dst, extents)) return false;
-  if (move.src.is_image() && !offset_fits(move, move.dst, move.src, extents)) return false;
+  if (move.dst.is_image() && !offsets_fit(move, move.src, move.dst, extents)) return false;
+  if (move.src.is_image() && !offsets_fit(move, move.dst, move.src, extents)) return false;
   return !is_sized(move.src) || !is_sized(move.dst) || bytes_fit(move, extents);
 }
 

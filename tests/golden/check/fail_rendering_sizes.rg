@@ -7,6 +7,8 @@ graph g(surface s: rgba8 8x8) {
   image small : rgba8 4x4
   image large : rgba8 16x16
   image shown : rgba8 view
+  image up : rgba8 ceil(view / 2)
+  image down : rgba8 view / 2
   pass r1 : raster { color a clear 0  resolve a -> flat  read flat as input }  //~ error[RG0356]: pass `r1` uses `flat` as `resolve_dst` and as `input`, and one of them writes
 //~^ note[RG0357]: the other access is here
   pass r2 : raster { color a clear 0  resolve a -> small }  //~ error[RG0352]: `small` is 4x4, other attachments of the pass are 8x8
@@ -17,6 +19,8 @@ graph g(surface s: rgba8 8x8) {
   pass r5 : raster { color s clear 0  read large as input }  //~ error[RG0352]: `large` is 16x16, other attachments of the pass are 8x8
 //~^ note[RG0355]: compared with this one
   pass r6 : raster { color s clear 0  read shown as input }  //~ error[RG0352]: `shown` is 64x64, other attachments of the pass are 8x8
+//~^ note[RG0355]: compared with this one
+  pass r8 : raster { color up clear 0  read down as input }  //~ error[RG0352]: `down` is 64x63, other attachments of the pass are 64x64
 //~^ note[RG0355]: compared with this one
   pass r7 : raster { color s clear 0  read flat as input }
 }

@@ -18,6 +18,7 @@ graph g(engine: In, surface s: rgba8 4x4) {
   image mask : d32f_s8 64x64
   image other : d32f_s8 64x64
   image narrow : d16 64x64
+  image cut : s8 5x5 mips 2 layers 2
   image volume : rgba8 16x16x4
   image flat : rgba8 16x16
   image stack : rgba8 16x16 layers 4
@@ -51,6 +52,7 @@ graph g(engine: In, surface s: rgba8 4x4) {
   pass c9 : transfer { copy narrow -> half  copy mask.stencil -> byte  copy mask.depth -> words }
   pass c10 : transfer { copy texels.bytes(2, 16384) -> a }  //~ error[RG0487]: `copy` takes an offset in multiples of 4 bytes, and the range of `texels` is 16384 bytes from byte 2
   pass c11 : transfer { copy texels.bytes(2, 8192) -> narrow }  //~ error[RG0487]: `copy` takes an offset in multiples of 4 bytes, and the range of `texels` is 8192 bytes from byte 2
+  pass c16 : transfer { copy level.bytes(0, 58) -> cut }  //~ error[RG0487]: `copy` takes an offset in multiples of 4 bytes, and the range of `level` is 8 bytes from byte 50
   pass l1 : transfer { blit two -> three }  //~ error[RG0484]: a part of `three` would stay as it was: it is 64x64, 3 layers, and `two` is 64x64, 2 layers; layers are not scaled: name as many, `.layers(first, count)`
   pass l2 : transfer { blit two -> three.layers(1, 2)  blit a -> halves }
   pass l3 : transfer { copy a -> seen }  //~ error[RG0484]: a part of `seen` would stay as it was: it is 128x128, and `a` is 64x64 where `view` is 128x128; `blit` scales
