@@ -172,12 +172,16 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
   return fits;
 }
 
-// vkCmdResolveImage knows no other aspect (VUID-VkImageResolve-aspectMask-00266).
-bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst,
-                     Span span) {
-  const Resource& from = scope.graph.resources[src.resource];
-  if (word.kind != TransferKind::resolve || out.pass.kind != PassKind::transfer || info(from.format).is_color()) return true;
-  checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), scope.graph.resources[dst.resource].name});
+// vkCmdResolveImage knows colour alone (VUID-VkImageResolve-aspectMask-00266), and renderings resolve that or depth.
+bool resolves_aspects(const Between& at, const PassScope& out) {
+  const Resource &from = at.from(), &to = at.to();
+  if (at.word.kind != TransferKind::resolve || info(from.format).is_color()) return true;
+  if (out.pass.kind == PassKind::transfer) {
+    at.checker.report(DiagnosticKind::ResolveOfDepth, at.span, {from.name, name(from.format), to.name});
+    return false;
+  }
+  if (aspects_of(to, at.dst.range) == aspect_depth) return true;
+  at.checker.report(DiagnosticKind::TransferAspects, at.span, {"resolve", from.name, "gives depth", to.name, aspects_text(to, at.dst.range)});
   return false;
 }
 
@@ -208,8 +212,8 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
   if (!kinds_fit(checker, scope, *word, dst, node.span) || !check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
   if (!target_fits(checker, scope, *word, dst, node.span)) return drop(scope, out);
   if (node.src) {
-    if (!sources_fit({checker, scope, *word, src, dst, node.span, node.linear}) || !resolves_colour(checker, scope, out, *word, src, dst, node.span))
-      return drop(scope, out);
+    const Between between{checker, scope, *word, src, dst, node.span, node.linear};
+    if (!sources_fit(between) || !resolves_aspects(between, out)) return drop(scope, out);
     const auto from = add_source(checker, scope, out, *word, src);
     if (!from) return drop(scope, out);
     transfer.src = *from;

@@ -6,6 +6,8 @@ graph g(surface s: rgba8 8x8) {
   image flat : rgba8 8x8
   image small : rgba8 4x4
   image large : rgba8 16x16
+  image shade : d32f_s8 8x8 samples 4
+  image mask : d32f_s8 8x8
   image shown : rgba8 view
   image up : rgba8 ceil(view / 2)
   image down : rgba8 view / 2
@@ -22,5 +24,7 @@ graph g(surface s: rgba8 8x8) {
 //~^ note[RG0355]: compared with this one
   pass r8 : raster { color up clear 0  read down as input }  //~ error[RG0352]: `down` is 64x63, other attachments of the pass are 64x64
 //~^ note[RG0355]: compared with this one
+  pass r9 : raster { depth shade.depth clear 1  resolve shade -> mask }  //~ error[RG0490]: `resolve` cannot tell which aspects go where: `shade` gives depth, `mask` has depth and stencil; say `.depth` or `.stencil`
+  pass r10 : raster { depth shade.depth clear 1  resolve shade -> mask.depth }
   pass r7 : raster { color s clear 0  read flat as input }
 }
