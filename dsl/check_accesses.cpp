@@ -212,7 +212,9 @@ void limit_mips(PassScope& out, const Access& access) {
 }
 
 void read_clear(Builder& at) {
-  if (at.node.clear && at.ok) at.access.clear = clear_value(at.checker, at.scope, *at.node.clear, *at.resource, at.access.range.aspects);
+  if (!at.node.clear || !at.ok) return;
+  at.access.clear = clear_value(at.checker, at.scope, *at.node.clear, *at.resource, at.access.range.aspects);
+  if (at.resource->kind == ResourceKind::buffer) at.ok = fill_fits(at.checker, *at.resource, at.access.range, at.node.clear->span);
 }
 
 void check_port(Builder& at, const Place& place) {

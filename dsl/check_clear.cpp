@@ -48,11 +48,44 @@ std::vector<double> numbers_of(Checker& checker, const Value& value, Span span) 
   return {};
 }
 
-bool fits_format(const FormatInfo& format, const std::vector<double>& numbers) {
-  const auto whole = [](double number) { return number == std::floor(number); };
-  if (format.numeric == Numeric::uint) return std::all_of(numbers.begin(), numbers.end(), [&](double n) { return whole(n) && n >= 0; });
-  if (format.numeric == Numeric::sint) return std::all_of(numbers.begin(), numbers.end(), whole);
+bool fits_bits(double number, uint32_t bits, bool is_signed) {
+  const double most = std::ldexp(1.0, static_cast<int>(is_signed ? bits - 1 : bits)) - 1;
+  return number == std::floor(number) && number >= (is_signed ? -most - 1 : 0) && number <= most;
+}
+
+bool fits_format(Format format, const std::vector<double>& numbers) {
+  constexpr uint32_t kTenBits = 10, kTwoBits = 2;
+  const FormatInfo& row = info(format);
+  if (!row.is_integer()) return true;
+  for (size_t i = 0; i < numbers.size(); ++i) {
+    const uint32_t even = row.block_bytes * 8 / components(format);
+    const uint32_t bits = format != Format::rgb10a2ui ? even : i == 3 ? kTwoBits : kTenBits;
+    if (!fits_bits(numbers[i], bits, row.numeric == Numeric::sint)) return false;
+  }
   return true;
+}
+
+// Stencils have eight bits in every format.
+bool fits_stencil(const FormatInfo& format, uint32_t aspects, const std::vector<double>& numbers) {
+  constexpr uint32_t kStencilBits = 8;
+  const size_t at = aspects == aspect_stencil ? 0 : 1;
+  return (format.aspects & aspect_stencil) == 0 || at >= numbers.size() || fits_bits(numbers[at], kStencilBits, false);
+}
+
+const char* word_of(Scalar scalar) { return scalar == Scalar::i32 ? "i32" : scalar == Scalar::u32 ? "u32" : "bool"; }
+
+ClearValue buffer_value(Checker& checker, const Resource& buffer, const std::vector<double>& numbers, Span span) {
+  ClearValue out;
+  const bool words =
+      buffer.format == Format::none || buffer.format == Format::r32f || buffer.format == Format::r32ui || buffer.format == Format::r32i;
+  const bool simple = (!buffer.element.record.valid() && words) || numbers[0] == 0;
+  const Scalar scalar = buffer.element.record.valid() ? Scalar::u32 : buffer.element.scalar;
+  if (numbers.size() > 1 || !simple)
+    checker.report(DiagnosticKind::ClearOfStruct, span, {buffer.name});
+  else if (constexpr uint32_t kBits = 32; scalar != Scalar::f32 && !fits_bits(numbers[0], kBits, scalar == Scalar::i32))
+    checker.report(DiagnosticKind::ClearOfFormat, span, {buffer.name, buffer.format == Format::none ? word_of(scalar) : name(buffer.format)});
+  set_buffer_clear(out, scalar, numbers[0]);
+  return out;
 }
 
 }  // namespace
@@ -61,19 +94,13 @@ ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& exp
   ClearValue out;
   const std::vector<double> numbers = numbers_of(checker, evaluate_expr(checker, &scope, scope.module, expr), expr.span);
   if (numbers.empty()) return out;
-  if (resource.kind == ResourceKind::buffer) {
-    const bool words =
-        resource.format == Format::none || resource.format == Format::r32f || resource.format == Format::r32ui || resource.format == Format::r32i;
-    const bool simple = (!resource.element.record.valid() && words) || numbers[0] == 0;
-    if (numbers.size() > 1 || !simple) checker.report(DiagnosticKind::ClearOfStruct, expr.span, {resource.name});
-    set_buffer_clear(out, resource.element.record.valid() ? Scalar::u32 : resource.element.scalar, numbers[0]);
-    return out;
-  }
+  if (resource.kind == ResourceKind::buffer) return buffer_value(checker, resource, numbers, expr.span);
   const FormatInfo& format = info(resource.format);
   const size_t most = format.is_color() ? 4 : 2;
   if (numbers.size() > most)
     checker.report(DiagnosticKind::ClearComponents, expr.span, {resource.name, std::to_string(most), std::to_string(numbers.size())});
-  if (!fits_format(format, numbers)) checker.report(DiagnosticKind::ClearOfFormat, expr.span, {resource.name, format.name});
+  if (!fits_format(resource.format, numbers) || !fits_stencil(format, aspects, numbers))
+    checker.report(DiagnosticKind::ClearOfFormat, expr.span, {resource.name, format.name});
   const bool depth = (format.aspects & aspect_depth) != 0 && aspects != aspect_stencil;
   if (depth && (numbers[0] < 0 || numbers[0] > 1)) checker.report(DiagnosticKind::DepthClearRange, expr.span, {resource.name});
   set_image_clear(out, format, aspects, numbers);

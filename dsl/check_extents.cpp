@@ -1,5 +1,6 @@
 // `extent NAME = runtime(...) min(...) max(...)`.
 #include <algorithm>
+#include <set>
 
 #include "dsl/check_state.h"
 
@@ -57,7 +58,55 @@ bool read_extent(Checker& checker, const Symbol& symbol, const ast::ExtentDeclar
   return within_bounds(checker, node, extent);
 }
 
+// Each as evaluate() counts them: three an extent.
+std::set<size_t> axes_below(const Program& program, const std::vector<ExprId>& exprs) {
+  std::set<size_t> axes;
+  std::set<uint32_t> seen;
+  std::vector<ExprId> open = exprs;
+  while (!open.empty()) {
+    const ExprId id = open.back();
+    open.pop_back();
+    if (!id.valid() || !seen.insert(id.value).second) continue;
+    const Expr& expr = program.exprs[id];
+    if (expr.op == ExprOp::extent) axes.insert(static_cast<size_t>(expr.value));
+    open.insert(open.end(), {expr.a, expr.b});
+  }
+  return axes;
+}
+
 }  // namespace
+
+std::vector<std::vector<int64_t>> telling_extents(const Program& program, const std::vector<ExprId>& exprs) {
+  constexpr size_t kMostAxes = 6, kMostAxesOfThree = 4;
+  const std::set<size_t> axes = axes_below(program, exprs);
+  const std::vector<int64_t> initial = initial_extents(program);
+  if (axes.empty()) return {initial};
+  if (axes.size() > kMostAxes) return {initial, maximum_extents(program), minimum_extents(program)};
+  std::vector<std::vector<int64_t>> telling{initial};
+  for (const size_t axis : axes) {
+    const Extent& extent = program.extents.rows[axis / 3];
+    const int64_t least = extent.minimum[axis % 3], most = extent.maximum[axis % 3];
+    std::set<int64_t> values{least, most};
+    if (axes.size() <= kMostAxesOfThree) values.insert(std::max(most - 1, least));
+    std::vector<std::vector<int64_t>> next;
+    for (const auto& before : telling)
+      for (auto value = values.rbegin(); value != values.rend(); ++value) next.push_back(before), next.back()[axis] = *value;
+    telling = std::move(next);
+  }
+  telling.insert(telling.begin(), initial);
+  return telling;
+}
+
+std::string where_extents(const Program& program, const std::vector<ExprId>& exprs, const std::vector<int64_t>& values) {
+  std::set<size_t> extents;
+  for (const size_t axis : axes_below(program, exprs)) extents.insert(axis / 3);
+  std::string text;
+  for (const size_t id : extents) {
+    text += (text.empty() ? " where `" : ", `") + program.extents.rows[id].name + "` is ";
+    for (size_t axis = 0; axis < program.extents.rows[id].axes; ++axis) text += (axis ? "x" : "") + std::to_string(values[3 * id + axis]);
+  }
+  return text;
+}
 
 ExtentId extent_of(Checker& checker, uint32_t symbol) {
   if (begin_declaration(checker, symbol)) {

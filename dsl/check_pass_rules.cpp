@@ -193,12 +193,14 @@ void compare_attachments(const Rules& rules, const Access& first, const Access& 
     rules.checker.report(kind, other.span, {b.name, std::move(one), std::move(two)}).note(DiagnosticKind::OtherAttachment, first.span);
   };
   const bool same_formula = a.width == b.width && a.height == b.height && first.range.mip == other.range.mip;
-  for (const auto& extents : {initial_extents(rules.checker.program), maximum_extents(rules.checker.program)}) {
+  for (const auto& extents : telling_extents(rules.checker.program, {a.width, a.height, b.width, b.height})) {
     if (same_formula) break;
     const std::string one = size_text(rules, first, extents), two = size_text(rules, other, extents);
     if (one != two) return report(DiagnosticKind::AttachmentSizes, two, one);
   }
-  if (a.samples != b.samples) return report(DiagnosticKind::AttachmentSamples, std::to_string(b.samples), std::to_string(a.samples));
+  if (other.role == Role::input) return;
+  if (a.samples != b.samples && other.role != Role::resolve_dst)
+    return report(DiagnosticKind::AttachmentSamples, std::to_string(b.samples), std::to_string(a.samples));
   const uint32_t one = target_layers(rules, first), two = target_layers(rules, other);
   if (one != two) report(DiagnosticKind::AttachmentLayers, std::to_string(two), std::to_string(one));
 }
@@ -301,15 +303,13 @@ void check_state(const Rules& rules) {
 }
 
 void check_attachments(const Rules& rules) {
-  const Access* first = nullptr;
+  const auto& accesses = rules.pass.accesses;
+  const auto first = std::find_if(accesses.begin(), accesses.end(), [](const Access& access) { return is_attachment(access.role); });
   size_t colors = 0;
-  for (const Access& access : rules.pass.accesses) {
-    if (!is_attachment(access.role)) continue;
+  for (const Access& access : accesses) {
     colors += access.role == Role::color;
-    if (first)
-      compare_attachments(rules, *first, access);
-    else
-      first = &access;
+    const bool beside = access.role == Role::input || (access.role == Role::resolve_dst && rules.pass.kind == PassKind::raster);
+    if (first != accesses.end() && &access != &*first && (is_attachment(access.role) || beside)) compare_attachments(rules, *first, access);
   }
   if (colors > 8) rules.checker.report(DiagnosticKind::TooManyColors, rules.pass.span, {rules.pass.name, std::to_string(colors)});
 }

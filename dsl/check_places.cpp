@@ -250,6 +250,29 @@ Place take_previous(Walk walk, const Expr& call, Place place) {
   return place;
 }
 
+// Reports a range that leaves the buffer at some extents.
+bool inside(Walk walk, const Expr& call, const Resource& buffer, const Range& range) {
+  Checker& checker = walk.checker;
+  const std::vector<ExprId> exprs{range.offset, range.size, buffer.count};
+  const Polynomial offset = checker.formulas.of(range.offset), size = checker.formulas.of(range.size);
+  const auto proved = [&](const Polynomial& value) { return checker.formulas.never_negative(value); };
+  const bool begins = proved(offset) && proved(size);
+  const bool ends = !buffer.count.valid() || proved(checker.formulas.of(buffer.count) * Polynomial(buffer.stride) - offset - size);
+  if (begins && ends) return true;
+  for (const auto& extents : telling_extents(checker.program, exprs)) {
+    const int64_t first = evaluate(checker.program, range.offset, extents), count = evaluate(checker.program, range.size, extents);
+    if (first < 0 || count < 0) return fail(walk, DiagnosticKind::EmptyByteRange, call.span, {}).ok();
+    if (!buffer.count.valid()) continue;
+    const int64_t has = evaluate(checker.program, buffer.count, extents) * int64_t{buffer.stride};
+    if (first <= has - count) continue;
+    const int64_t end = first > INT64_MAX - count ? INT64_MAX : first + count;
+    return fail(walk, DiagnosticKind::BytesBeyondBuffer, call.span,
+                {buffer.name, std::to_string(end), std::to_string(has), where_extents(checker.program, exprs, extents)})
+        .ok();
+  }
+  return true;
+}
+
 Place take_bytes(Walk walk, const Expr& call, Place place) {
   const Value offset = evaluate_expr(walk.checker, &walk.scope, walk.scope.module, call.operands[1]);
   const Value size = evaluate_expr(walk.checker, &walk.scope, walk.scope.module, call.operands[2]);
@@ -263,7 +286,7 @@ Place take_bytes(Walk walk, const Expr& call, Place place) {
   if (negative) return fail(walk, DiagnosticKind::EmptyByteRange, call.span, {});
   place.range.offset = to_expr(walk.checker, offset.at[0]);
   place.range.size = to_expr(walk.checker, size.at[0]);
-  return place;
+  return inside(walk, call, walk.scope.graph.resources[place.resource], place.range) ? place : Place{};
 }
 
 // Why texels of `from` cannot be read as texels of `to`, or nothing.

@@ -315,6 +315,8 @@ void read_init(Builder& at) {
   }
   const bool keeps = at.resource.lifetime == Lifetime::history || at.resource.lifetime == Lifetime::persistent;
   if (!keeps) return fail(at, DiagnosticKind::InitOfTransient, at.node.clear->span, {at.resource.name});
+  if (at.ok && info(at.resource.format).is_block())
+    return fail(at, DiagnosticKind::BlockFormatUse, at.node.clear->span, {at.resource.name, name(at.resource.format), "be cleared"});
   at.resource.init = InitKind::clear;
   if (at.ok) at.resource.init_value = clear_value(at.checker, at.scope, *at.node.clear, at.resource, 0);
 }

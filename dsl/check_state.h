@@ -179,6 +179,11 @@ const Value& constant_value(Checker& checker, uint32_t symbol);
 bool begin_declaration(Checker& checker, uint32_t symbol);
 // ---- check_extents.cpp ------------------------------------------------------------------------------------------
 ExtentId extent_of(Checker& checker, uint32_t symbol);
+// Where to look at expressions of which nothing is proved: at the initial extents, then at the bounds of each axis below them in every combination,
+// and at uneven ones. As evaluate() takes them; one alone if they are constant.
+std::vector<std::vector<int64_t>> telling_extents(const Program& program, const std::vector<ExprId>& exprs);
+// " where `view` is 320x200"; empty for constants.
+std::string where_extents(const Program& program, const std::vector<ExprId>& exprs, const std::vector<int64_t>& values);
 
 // ---- check_types.cpp --------------------------------------------------------------------------------------------
 StructId struct_of(Checker& checker, uint32_t symbol);
@@ -242,6 +247,11 @@ struct PassScope {
 std::optional<uint32_t> add_access(Checker& checker, GraphScope& scope, PassScope& out, const ast::AccessStatement& statement);
 uint32_t add_plain_access(GraphScope& scope, PassScope& out, const Place& place, Mode mode, Role role);
 void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast::TransferStatement& statement);
+// ---- check_transfer_sizes.cpp
+// False after a report: of what `dst` is declared to get whole a part would stay, or the command would leave one of the two.
+bool sizes_fit(Checker& checker, const GraphScope& scope, TransferKind kind, const Place& src, const Place& dst, Span span);
+// Fills write words.
+bool fill_fits(Checker& checker, const Resource& buffer, const Range& range, Span span);
 // False after a report.
 bool add_features(Checker& checker, const GraphScope& scope, Pass& pass, const ast::FeaturesStatement& statement);
 bool add_spectrum(Checker& checker, GraphScope& scope, PassScope& out, const ast::SpectrumStatement& statement);

@@ -1,7 +1,5 @@
 // Transfer statements: each brings its accesses and a row of Pass::transfers.
 #include <algorithm>
-#include <array>
-#include <functional>
 
 #include "dsl/check_state.h"
 
@@ -42,66 +40,113 @@ bool blit_fits(Format from, Format to) {
   return kind(a) == kind(b);
 }
 
-int64_t side_of(const Checker& checker, ExprId axis, uint32_t mip, const std::vector<int64_t>& extents) {
-  return axis.valid() ? std::max<int64_t>(evaluate(checker.program, axis, extents) >> mip, 1) : 1;
+bool report_formats(Checker& checker, DiagnosticKind kind, const Resource& from, const Resource& to, Span span) {
+  checker.report(kind, span, {from.name, name(from.format), to.name, name(to.format)});
+  return false;
 }
 
-// What copies count: blocks along each axis of the first mip, then mips, then layers.
-std::array<int64_t, 5> blocks_of(const Checker& checker, const Resource& image, const Range& range, const std::vector<int64_t>& extents) {
-  const FormatInfo& format = info(image.format);
-  const int64_t width = side_of(checker, image.width, range.mip, extents), height = side_of(checker, image.height, range.mip, extents);
-  return {(width + format.block_width - 1) / format.block_width, (height + format.block_height - 1) / format.block_height,
-          side_of(checker, image.depth, range.mip, extents), mip_count(image, range), layer_count(image, range)};
-}
+struct Between {
+  Checker& checker;
+  const GraphScope& scope;
+  const TransferWord& word;
+  const Place &src, &dst;
+  Span span;
+  bool linear = false;
+  const Resource& from() const { return scope.graph.resources[src.resource]; }
+  const Resource& to() const { return scope.graph.resources[dst.resource]; }
+};
 
-std::string size_text(const Checker& checker, const Resource& image, const Range& range, const std::vector<int64_t>& extents) {
-  std::string text = std::to_string(side_of(checker, image.width, range.mip, extents));
-  for (const ExprId axis : {image.height, image.depth})
-    if (axis.valid()) text += "x" + std::to_string(side_of(checker, axis, range.mip, extents));
-  if (const uint32_t mips = mip_count(image, range); mips > 1) text += ", " + std::to_string(mips) + " mips";
-  if (const uint32_t layers = layer_count(image, range); layers > 1) text += ", " + std::to_string(layers) + " layers";
-  return text;
-}
-
-// A transfer defines what it writes, so there has to be a texel of the source for each.
-bool source_covers(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& src, const Place& dst, Span span) {
-  const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
-  if (from.dimension != to.dimension) return true;
-  for (const auto& extents : {initial_extents(checker.program), maximum_extents(checker.program)}) {
-    const auto has = blocks_of(checker, from, src.range, extents), wants = blocks_of(checker, to, dst.range, extents);
-    if (std::equal(wants.begin(), wants.end(), has.begin(), std::less_equal<>())) continue;
-    checker.report(DiagnosticKind::CopyTooSmall, span,
-                   {from.name, size_text(checker, from, src.range, extents), to.name, size_text(checker, to, dst.range, extents),
-                    word.kind == TransferKind::copy ? "`blit` scales" : "a resolve keeps the size"});
+bool samples_fit(const Between& at) {
+  for (const Resource* image : {&at.from(), &at.to()}) {
+    if (image->kind != ResourceKind::image || image->samples == 1) continue;
+    at.checker.report(DiagnosticKind::TransferSamples, at.span, {std::string(at.word.word), image->name, std::to_string(image->samples)});
     return false;
   }
   return true;
 }
 
-bool sources_fit(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& src, const Place& dst, Span span) {
-  const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
-  if (src.resource == dst.resource && src.age == dst.age && src.range == dst.range) {
-    checker.report(DiagnosticKind::TransferOntoItself, span, {from.name});
+uint32_t aspects_of(const Resource& image, const Range& range) { return range.aspects == 0 ? info(image.format).aspects : range.aspects; }
+
+std::string aspects_text(const Resource& resource, const Range& range) {
+  if (resource.kind == ResourceKind::buffer) return "is a buffer";
+  const uint32_t aspects = aspects_of(resource, range);
+  if (aspects == (aspect_depth | aspect_stencil)) return "has depth and stencil";
+  return aspects == aspect_depth ? "has depth" : aspects == aspect_stencil ? "has stencil" : "has colours";
+}
+
+// Between images they go one to one, to and from buffers one at a time.
+bool aspects_fit(const Between& at) {
+  const Resource &from = at.from(), &to = at.to();
+  const uint32_t src = aspects_of(from, at.src.range), dst = aspects_of(to, at.dst.range);
+  const bool both_images = from.kind == to.kind && from.kind == ResourceKind::image;
+  const auto one = [](uint32_t aspects) { return (aspects & (aspects - 1)) == 0; };
+  if (both_images ? src == dst : one(src) && one(dst)) return true;
+  at.checker.report(DiagnosticKind::TransferAspects, at.span,
+                    {std::string(at.word.word), from.name, aspects_text(from, at.src.range), to.name, aspects_text(to, at.dst.range)});
+  return false;
+}
+
+bool resolve_fits(const Between& at) {
+  const Resource &from = at.from(), &to = at.to();
+  if (from.samples == 1 || to.samples != 1) {
+    at.checker.report(DiagnosticKind::ResolveSamples, at.span, {from.name, std::to_string(from.samples), to.name, std::to_string(to.samples)});
     return false;
   }
-  if (word.kind == TransferKind::resolve && (from.samples == 1 || to.samples != 1)) {
-    checker.report(DiagnosticKind::ResolveSamples, span, {from.name, std::to_string(from.samples), to.name, std::to_string(to.samples)});
+  return from.format == to.format || report_formats(at.checker, DiagnosticKind::ResolveFormats, from, to, at.span);
+}
+
+bool filter_fits(const Between& at) {
+  const FormatInfo& format = info(at.from().format);
+  const char* fault = !format.is_color() ? "depth and stencil are not mixed" : format.is_integer() ? "integers are not mixed" : nullptr;
+  if (!at.linear || !fault) return true;
+  at.checker.report(DiagnosticKind::BlitFilter, at.span, {at.from().name, format.name, fault});
+  return false;
+}
+
+// No device draws blocks, so none scales into them.
+bool blit_target_fits(const Between& at) {
+  const FormatInfo& format = info(at.to().format);
+  if (format.is_block()) at.checker.report(DiagnosticKind::BlockFormatUse, at.span, {at.to().name, format.name, "be blitted to"});
+  return !format.is_block();
+}
+
+bool images_blit(const Between& at) {
+  if (!samples_fit(at) || !blit_target_fits(at)) return false;
+  if (!blit_fits(at.from().format, at.to().format)) return report_formats(at.checker, DiagnosticKind::BlitFormats, at.from(), at.to(), at.span);
+  return filter_fits(at) && aspects_fit(at);
+}
+
+// Formats of depth are compatible with themselves alone.
+bool images_copy(const Between& at) {
+  const Resource &from = at.from(), &to = at.to();
+  const bool colours = info(from.format).is_color() && info(to.format).is_color();
+  const bool texels = from.format == to.format || (colours && info(from.format).block_bytes == info(to.format).block_bytes);
+  if (!texels || from.samples != to.samples) return report_formats(at.checker, DiagnosticKind::CopyFormats, from, to, at.span);
+  return aspects_fit(at);
+}
+
+bool copy_fits(const Between& at) {
+  const bool from_image = is_image(at.scope, at.src), to_image = is_image(at.scope, at.dst);
+  if (from_image && to_image) return images_copy(at);
+  if (!from_image && !to_image) return true;
+  return samples_fit(at) && aspects_fit(at);
+}
+
+bool sources_fit(const Between& at) {
+  if (at.src.resource == at.dst.resource && at.src.age == at.dst.age && at.src.range == at.dst.range) {
+    at.checker.report(DiagnosticKind::TransferOntoItself, at.span, {at.from().name});
     return false;
   }
-  if (word.kind == TransferKind::resolve && from.format != to.format) {
-    checker.report(DiagnosticKind::ResolveFormats, span, {from.name, name(from.format), to.name, name(to.format)});
-    return false;
-  }
-  if (word.kind == TransferKind::resolve) return source_covers(checker, scope, word, src, dst, span);
-  if (word.kind == TransferKind::blit && is_image(scope, src) && is_image(scope, dst) && !blit_fits(from.format, to.format)) {
-    checker.report(DiagnosticKind::BlitFormats, span, {from.name, name(from.format), to.name, name(to.format)});
-    return false;
-  }
-  const bool both_images = is_image(scope, src) && is_image(scope, dst);
-  if (word.kind != TransferKind::copy || !both_images) return kinds_fit(checker, scope, word, src, span);
-  if (info(from.format).block_bytes == info(to.format).block_bytes && from.samples == to.samples)
-    return source_covers(checker, scope, word, src, dst, span);
-  checker.report(DiagnosticKind::CopyFormats, span, {from.name, name(from.format), to.name, name(to.format)});
+  if (!kinds_fit(at.checker, at.scope, at.word, at.src, at.span)) return false;
+  const bool fits = at.word.kind == TransferKind::resolve ? resolve_fits(at) : at.word.kind == TransferKind::blit ? images_blit(at) : copy_fits(at);
+  return fits && sizes_fit(at.checker, at.scope, at.word.kind, at.src, at.dst, at.span);
+}
+
+bool target_fits(Checker& checker, const GraphScope& scope, const TransferWord& word, const Place& dst, Span span) {
+  const Resource& to = scope.graph.resources[dst.resource];
+  if (word.kind == TransferKind::fill) return fill_fits(checker, to, dst.range, span);
+  if (word.kind != TransferKind::clear || !info(to.format).is_block()) return true;
+  checker.report(DiagnosticKind::BlockFormatUse, span, {to.name, name(to.format), "be cleared"});
   return false;
 }
 
@@ -127,12 +172,16 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
   return fits;
 }
 
-// vkCmdResolveImage knows no other aspect (VUID-VkImageResolve-aspectMask-00266).
-bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst,
-                     Span span) {
-  const Resource& from = scope.graph.resources[src.resource];
-  if (word.kind != TransferKind::resolve || out.pass.kind != PassKind::transfer || info(from.format).is_color()) return true;
-  checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), scope.graph.resources[dst.resource].name});
+// vkCmdResolveImage knows colour alone (VUID-VkImageResolve-aspectMask-00266), and renderings resolve that or depth.
+bool resolves_aspects(const Between& at, const PassScope& out) {
+  const Resource &from = at.from(), &to = at.to();
+  if (at.word.kind != TransferKind::resolve || info(from.format).is_color()) return true;
+  if (out.pass.kind == PassKind::transfer) {
+    at.checker.report(DiagnosticKind::ResolveOfDepth, at.span, {from.name, name(from.format), to.name});
+    return false;
+  }
+  if (aspects_of(to, at.dst.range) == aspect_depth) return true;
+  at.checker.report(DiagnosticKind::TransferAspects, at.span, {"resolve", from.name, "gives depth", to.name, aspects_text(to, at.dst.range)});
   return false;
 }
 
@@ -140,7 +189,6 @@ void drop(GraphScope& scope, PassScope& out) { out.dropped = scope.incomplete = 
 
 void finish(Checker& checker, GraphScope& scope, PassScope& out, const TransferWord& word, const ast::TransferStatement& node, Transfer transfer,
             const Place& dst) {
-  if (!check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
   transfer.dst = add_plain_access(scope, out, dst, Mode::write, word.dst);
   if (dst.port) dst.port->written = true;
   const Access& access = out.pass.accesses[transfer.dst];
@@ -161,10 +209,11 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
   const Place src = node.src ? find_place(checker, scope, *node.src) : Place{};
   const Place dst = find_place(checker, scope, *node.dst);
   if (!dst.ok() || (node.src && !src.ok())) return drop(scope, out);
-  if (!kinds_fit(checker, scope, *word, dst, node.span)) return drop(scope, out);
+  if (!kinds_fit(checker, scope, *word, dst, node.span) || !check_writable(checker, scope, dst, *node.dst)) return drop(scope, out);
+  if (!target_fits(checker, scope, *word, dst, node.span)) return drop(scope, out);
   if (node.src) {
-    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_colour(checker, scope, out, *word, src, dst, node.span))
-      return drop(scope, out);
+    const Between between{checker, scope, *word, src, dst, node.span, node.linear};
+    if (!sources_fit(between) || !resolves_aspects(between, out)) return drop(scope, out);
     const auto from = add_source(checker, scope, out, *word, src);
     if (!from) return drop(scope, out);
     transfer.src = *from;

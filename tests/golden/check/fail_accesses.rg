@@ -22,7 +22,7 @@ graph g(surface s: rgba8 4x4) {  //~ note[RG0202]: `s` is declared here
   pass p9 : compute { read data as storage(smooth) }  //~ error[RG0342]: role `storage` takes no sampler
   pass p10 : compute { read s as sampled(compares) }  //~ error[RG0343]: sampler `compares` compares depths, but `s` is of format `rgba8`
   pass p11 : compute { read ids as sampled(smooth) }  //~ error[RG0344]: sampler `smooth` filters, but `ids` holds integers (`r32ui`)
-  pass p12 : raster { color ids clear 0.5 }  //~ error[RG0333]: `ids` is of integer format `r32ui`: its clear value must be whole and in range
+  pass p12 : raster { color ids clear 0.5 }  //~ error[RG0333]: `ids` holds integers (`r32ui`): the value for it must be whole and in range
   pass p13 : raster { color ids blend add(one, one) }  //~ error[RG0346]: `ids` holds integers (`r32ui`) and cannot be blended
   pass p14 : raster { color s blend add(one) }  //~ error[RG0345]: a blend takes two factors, or four with those of alpha, not 1
   pass p15 : raster { color s blend plus(one, wun) }  //~ error[RG0245]: there is no blend factor called `wun`

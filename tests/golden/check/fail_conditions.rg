@@ -35,6 +35,6 @@ graph frame(surface backbuffer: rgba8 view after copy_src)
     write d.view(r32f) as storage  //~ error[RG0255]: `d` is `d32f`, which cannot be seen as `r32f`: depth and stencil have one format each
     write b.view(r8_unknown) as storage  //~ error[RG0244]: there is no format called `r8_unknown`
   }
-  pass five : transfer { copy a.view(rgba8_srgb) -> b }  //~ error[RG0365]: a copy needs texels of one size and sample count: `a` is `rgba8`, `b` is `r8`
+  pass five : transfer { copy a.view(rgba8_srgb) -> b }  //~ error[RG0365]: a copy needs texels of one size and sample count, depth its own format: `a` is `rgba8`, `b` is `r8`
   pass show : raster { color backbuffer clear 0 }
 }

@@ -1,6 +1,6 @@
 // Parts that do not add up, and pixels that tests keep out.
 module ranges
-extent n = runtime(64) min(1) max(1000)
+extent n = runtime(64) min(2) max(1000)
 state masked { stencil test equal }
 state near { depth test less }
 graph g(surface s: rgba8 4x4 after copy_src) {

@@ -25,7 +25,7 @@ graph g(surface s: rgba8 4x4) {
   buffer v : u32[]  //~ error[RG0318]: buffer `v` needs a length: only what the engine brings may leave it open
   buffer w : u32[4] mips 2  //~ error[RG0326]: `mips` is a setting of images
   buffer x : Missing[4]  //~ error[RG0209]: there is no type called `Missing`
-  image y : rgba8ui 4x4 persistent init clear 0.5  //~ error[RG0333]: `y` is of integer format `rgba8ui`: its clear value must be whole and in range
+  image y : rgba8ui 4x4 persistent init clear 0.5  //~ error[RG0333]: `y` holds integers (`rgba8ui`): the value for it must be whole and in range
   image z : rgba8 4x4 persistent init clear (0, 0, 0, 0, 0)  //~ error[RG0332]: `z` takes up to 4 clear components, not 5
   image zz : d32f 4x4 persistent init clear 2  //~ error[RG0334]: `zz` holds depths: its clear value must be between 0 and 1
 }

@@ -9,7 +9,7 @@ graph g(surface s: rgba8 4x4) {
   pass p2 : transfer { fill a 0 }  //~ error[RG0359]: `fill` cannot work on an image, and `a` is one
   pass p3 : compute { copy a -> b }  //~ error[RG0360]: `copy` belongs in a transfer pass
   pass p4 : transfer { copy a -> a }  //~ error[RG0361]: `a` is source and destination at once
-  pass p5 : transfer { copy a -> b }  //~ error[RG0365]: a copy needs texels of one size and sample count: `a` is `rgba8`, `b` is `rgba16f`
+  pass p5 : transfer { copy a -> b }  //~ error[RG0365]: a copy needs texels of one size and sample count, depth its own format: `a` is `rgba8`, `b` is `rgba16f`
   pass p6 : transfer { resolve a -> s }  //~ error[RG0362]: a resolve goes from several samples to one: `a` has 1, `s` has 1
   pass p7 : transfer { resolve m -> n }  //~ error[RG0363]: a resolve keeps the format: `m` is `rgba8`, `n` is `r32f`
   pass p8 : raster { color s clear 0  resolve m -> s }  //~ error[RG0364]: `m` is no colour attachment of pass `p8`

@@ -140,7 +140,7 @@ TEST(PlannerFuzz, ShrunkProgramsStayRight) {
 TEST(Redundancy, IsJudgedOfRangesThatLieAlikeAtAllExtents) {
   const auto with_a_stage_too_many = [](const std::string& begin) {
     const auto program = load(
-        "module m\nextent n = runtime(64) min(2) max(1000)\nextent m = runtime(8) max(16)\ngraph frame() {\n"
+        "module m\nextent n = runtime(64) min(20) max(1000)\nextent m = runtime(8) max(16)\ngraph frame() {\n"
         " buffer words : u32[n]\n buffer all : u32[n] output\n"
         " pass left : compute { write words.bytes(0, n / 2 * 4) as storage }\n"
         " pass right : compute { write words.bytes(" +

@@ -295,7 +295,7 @@ TEST(Synchronise, PartsWrittenInBetweenAreNotGathered) {
 
 FramePlan parts_of(const std::string& passes) {
   return plan_of(
-      program_of_text("module test\nextent n = runtime(64) min(2) max(1000)\n extent m = runtime(8) max(16)\n"
+      program_of_text("module test\nextent n = runtime(64) min(20) max(1000)\n extent m = runtime(8) max(16)\n"
                       "graph frame() {\n buffer words : u32[n]\n buffer all : u32[n] output\n" +
                       passes + "}\n"));
 }
@@ -308,13 +308,13 @@ TEST(Synchronise, PiecesCutByExtentsAreKeptApart) {
       "pass left  : compute { write words.bytes(0, n / 2 * 4) as storage  after again }\n"
       "pass more  : compute { read words as storage  update all as storage }\n");
   EXPECT_EQ(order_text(frame.plan), "| right | again left | more ");
-  const std::vector<int64_t> extents = {9, 1, 1, 8, 1, 1};
+  const std::vector<int64_t> extents = {41, 1, 1, 8, 1, 1};
   std::vector<std::pair<int64_t, int64_t>> bytes;
   for (const BufferBarrier& barrier : frame.plan.buffer_barriers)
     if (barrier.buffer.resource == resource_named(frame.plan, "words") && barrier.src_accesses != 0)
       bytes.emplace_back(barrier.bytes.offset == kNone ? 0 : evaluate(frame.plan.exprs, barrier.bytes.offset, extents),
                          barrier.bytes.size == kNone ? -1 : evaluate(frame.plan.exprs, barrier.bytes.size, extents));
-  EXPECT_EQ(bytes, (std::vector<std::pair<int64_t, int64_t>>{{16, -1}, {0, 16}}));
+  EXPECT_EQ(bytes, (std::vector<std::pair<int64_t, int64_t>>{{80, -1}, {0, 80}}));
 }
 
 TEST(Synchronise, PiecesOfUnknownOrderMayOverlap) {
