@@ -127,12 +127,23 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
   return fits;
 }
 
-// vkCmdResolveImage knows no other aspect (VUID-VkImageResolve-aspectMask-00266).
-bool resolves_colour(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst,
-                     Span span) {
-  const Resource& from = scope.graph.resources[src.resource];
-  if (word.kind != TransferKind::resolve || out.pass.kind != PassKind::transfer || info(from.format).is_color()) return true;
-  checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), scope.graph.resources[dst.resource].name});
+// vkCmdResolveImage knows no other aspect than colour (VUID-VkImageResolve-aspectMask-00266); renderings resolve depth, too.
+bool resolves_aspects(Checker& checker, const GraphScope& scope, const PassScope& out, const TransferWord& word, const Place& src, const Place& dst,
+                      Span span) {
+  const Resource &from = scope.graph.resources[src.resource], &to = scope.graph.resources[dst.resource];
+  const FormatInfo& format = info(from.format);
+  if (word.kind != TransferKind::resolve || format.is_color()) return true;
+  const bool both = format.aspects == (aspect_depth | aspect_stencil);
+  const std::string depth = both ? ".depth" : "", way = from.name + depth + " -> " + to.name + depth;
+  if (out.pass.kind == PassKind::transfer) {
+    checker.report(DiagnosticKind::ResolveOfDepth, span, {from.name, name(from.format), from.name + depth, to.name + depth});
+    return false;
+  }
+  const auto of_depth = [&](const Place& place) { return (place.range.aspects ? place.range.aspects : format.aspects) == aspect_depth; };
+  if (of_depth(src) && of_depth(dst)) return true;
+  const bool has_depth = (format.aspects & aspect_depth) != 0 && src.range.aspects != aspect_stencil;
+  checker.report(DiagnosticKind::ResolveOfStencil, span,
+                 {from.name, name(from.format), has_depth ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
   return false;
 }
 
@@ -163,7 +174,7 @@ void add_transfer(Checker& checker, GraphScope& scope, PassScope& out, const ast
   if (!dst.ok() || (node.src && !src.ok())) return drop(scope, out);
   if (!kinds_fit(checker, scope, *word, dst, node.span)) return drop(scope, out);
   if (node.src) {
-    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_colour(checker, scope, out, *word, src, dst, node.span))
+    if (!sources_fit(checker, scope, *word, src, dst, node.span) || !resolves_aspects(checker, scope, out, *word, src, dst, node.span))
       return drop(scope, out);
     const auto from = add_source(checker, scope, out, *word, src);
     if (!from) return drop(scope, out);
