@@ -141,9 +141,12 @@ bool resolves_aspects(Checker& checker, const GraphScope& scope, const PassScope
   }
   const auto of_depth = [&](const Place& place) { return (place.range.aspects ? place.range.aspects : format.aspects) == aspect_depth; };
   if (of_depth(src) && of_depth(dst)) return true;
-  const bool has_depth = (format.aspects & aspect_depth) != 0 && src.range.aspects != aspect_stencil;
+  const auto& accesses = out.pass.accesses;
+  const bool draws_depth = std::any_of(accesses.begin(), accesses.end(),
+                                       [&](const Access& access) { return access.resource == src.resource && access.role == Role::depth; });
   checker.report(DiagnosticKind::ResolveOfStencil, span,
-                 {from.name, name(from.format), has_depth ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
+                 {from.name, name(from.format),
+                  draws_depth && src.range.aspects != aspect_stencil ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
   return false;
 }
 

@@ -68,6 +68,7 @@ TEST(Amounts, SizesAreJudgedAtTheLeastExtents) {
   const golden::Loaded image = loaded_graph("image e : rgba8 view - 8 output\npass p : raster { color e clear 0  color s clear 0 }");
   EXPECT_EQ(errors_of(image).substr(0, 55), "RG0315 image `e` is -7 texels along an axis; the limits");
   ASSERT_FALSE(image.diagnostics.rows()[0].notes.empty());
+  EXPECT_EQ(row(image.diagnostics.rows()[0].notes[0].kind).code, std::string("RG0498"));
   EXPECT_EQ(image.diagnostics.rows()[0].notes[0].message(), "that is where the extents are least; a larger `min(...)` behind them rules it out");
   EXPECT_EQ(errors_of(loaded_graph("buffer b : u32[(view.x - 8) * 4]\npass f : transfer { fill b 0 }")),
             "RG0316 buffer `b` has -28 elements; the limits are 1 and 4294967295\n");
@@ -106,6 +107,7 @@ TEST(Amounts, ARenderingResolvesNoStencil) {
   EXPECT_EQ(resolve("d32f_s8", "depth d clear 1", "d -> r"), refused + "say `resolve d.depth -> r.depth`\n");
   EXPECT_EQ(resolve("d32f_s8", "depth d clear 1", "d.depth -> r"), refused + "say `resolve d.depth -> r.depth`\n");
   EXPECT_EQ(resolve("d32f_s8", "stencil d clear 0", "d.stencil -> r.stencil"), refused + "read the samples of its stencil in a shader\n");
+  EXPECT_EQ(resolve("d32f_s8", "stencil d clear 0", "d -> r"), refused + "read the samples of its stencil in a shader\n");
   EXPECT_EQ(
       errors_of(
           loaded_graph("image d : d32f_s8 view samples 4\nimage r : d32f_s8 view output\npass y : raster { depth d clear 1  stencil d clear 0 }\n"

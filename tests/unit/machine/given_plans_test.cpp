@@ -81,7 +81,7 @@ TEST(GivenPlans, TheCheckerKnowsWhatARenderingResolves) {
       " pass wipe : raster { depth other clear 0  stencil other clear 0 }\n"
       " pass y : raster { depth d clear 1  stencil d clear 0  draw host  resolve d.depth -> r.depth }\n"
       " pass show : raster { read r.depth as sampled in fragment  color bb clear 0 }\n}\n");
-  compiler::PlanData& plan = given.frame.plan;
+  PlanData& plan = given.frame.plan;
   const auto findings = [&] {
     std::string all;
     for (const verify::Finding& finding : verify::verify(given.program, dsl::GraphId{0}, {}, plan.view(), plan.program_pass, plan.program_resource))
