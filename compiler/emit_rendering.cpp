@@ -105,6 +105,7 @@ Attachment attachment_row(const PlanParts& parts, const PlanIndices& indices, co
 // The resolve statement that names this attachment as its source.
 void set_resolve(const PlanParts& parts, const PlanIndices& indices, uint32_t pass_index, const dsl::Access& source, Attachment& row) {
   const dsl::Pass& pass = parts.frame.pass(pass_index);
+  if (source.role == Role::stencil) return;  // which stays as it is where the depth beside it is resolved
   for (const dsl::Transfer& transfer : pass.transfers) {
     if (transfer.kind != dsl::TransferKind::resolve || pass.accesses[transfer.src].resource != source.resource) continue;
     const dsl::Access& target = pass.accesses[transfer.dst];

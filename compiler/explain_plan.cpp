@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "dsl/print.h"
 #include "runtime/alias.h"
 
 namespace rg::compiler {
@@ -44,11 +45,11 @@ std::string place_text(const PlanParts& parts, uint32_t pass, const Slack& slack
   if (slack.before && slack.first == here)
     text += fmt::format(", as early as it can: {} just before; without that access it could run earlier",
                         bound_text(parts.frame, *slack.before, slack.before->before));
-  else
+  else if (slack.first < here)
     text += fmt::format(", though group {} would do; here memory peaks lower or fewer groups are needed", slack.first);
   if (slack.after && last == here)
     text += fmt::format("; not later: {}", bound_text(parts.frame, *slack.after, slack.after->after));
-  else
+  else if (last > here)
     text += fmt::format("; group {} would do as well", last);
   return text;
 }
@@ -153,20 +154,22 @@ std::string remedy(const CellBarrier& b, bool image) {
   if (b.is_acquire && !image) return "; its bytes were in use before, by another resource or in the frame before";
   if (b.is_acquire) return "; a transition every frame: only a `persistent` or `history` image keeps its layout";
   if (b.reason == "layout") return "; `layout general` on the resource would spare it, at the price of slower reads";
+  if (b.reason == kStateAfter) return "; who comes after the frame finds it in that state";
   if (b.reason.starts_with("read after write")) return "; gone if the reader did without, or read in the pass that writes";
   if (b.reason.starts_with("write after read")) return "; gone if the writer used a resource of its own";
   return "";
 }
 
-std::string barrier_reason(const CellBarrier& b) {
-  return fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", b.reason, b.wraps ? ", against the frame before" : "");
+std::string barrier_reason(const CellBarrier& b, const dsl::Resource& resource) {
+  const std::string reason = b.reason == kStateAfter ? fmt::format("for `after {}`", dsl::print_role(resource.after.role)) : std::string(b.reason);
+  return fmt::format("{}{}{}", b.changes_queue ? "change of queue, " : "", reason, b.wraps ? ", against the frame before" : "");
 }
 
 void explain_barriers(const PlanParts& parts, Decisions& out) {
   const std::vector<Index> groups = groups_of_slots(parts);
   const auto add = [&](const CellBarrier& b, Index group, const std::string& halves) {
     const dsl::Resource& row = parts.frame.resource_of(b.cell);
-    const std::string reason = barrier_reason(b), change = remedy(b, row.kind == dsl::ResourceKind::image) + halves;
+    const std::string reason = barrier_reason(b, row), change = remedy(b, row.kind == dsl::ResourceKind::image) + halves;
     out.push_back({fmt::format("group {}", group), "barrier", fmt::format("`{}`: {}{}", row.name, reason, change)});
     out.push_back({row.name, "barrier", fmt::format("in group {}: {}{}", group, reason, change)});
   };

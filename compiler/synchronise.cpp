@@ -259,7 +259,10 @@ class Synchroniser {
       segment = 0;
       for (const Event& event : side.events) segment = std::max(segment, event.segment);
     }
-    if (!side.events.empty()) exit(segment, connect(frame_, options_, line.cell, unnamed(side, after), next));
+    if (side.events.empty()) return;
+    CellBarrier barrier = connect(frame_, options_, line.cell, unnamed(side, after), next);
+    barrier.reason = kStateAfter;
+    exit(segment, std::move(barrier));
   }
 
   // The epoch leaves contents and layout as they came.

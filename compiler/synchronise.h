@@ -36,6 +36,7 @@ struct SetPlace {  // where an event is set: in front of the barriers of a slot,
   bool behind = false;
   friend bool operator==(const SetPlace&, const SetPlace&) = default;
 };
+inline constexpr std::string_view kStateAfter = "state after the frame";  // reason: what `after` says of a resource that the engine brings
 struct CellBarrier {
   uint32_t cell = 0;  // with its age
   Range range;        // as merged; equals the cell's at first

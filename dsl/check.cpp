@@ -14,7 +14,8 @@ void add_constant(Checker& checker, uint32_t symbol) {
   if (!value.known_integer() || checker.symbols[symbol].is_private) return;  // private ones reach neither shaders nor C++
   const ast::Name name = checker.symbols[symbol].name;
   if (!claim_public_name(checker, name)) return;
-  if (reserved_in_glsl(name.text)) return void(checker.report(DiagnosticKind::ReservedName, name.span, {std::string(name.text)}));
+  if (reserved_in_glsl(name.text))
+    return void(checker.report(DiagnosticKind::ReservedName, name.span, {std::string(name.text), "call the constant otherwise"}));
   checker.program.constants.push_back({std::string(name.text), value.at[0].value});
 }
 

@@ -1,4 +1,4 @@
-// Clear values: numbers become the bits that a format or an element holds.
+// Clear values: numbers become the bits that a format or an element holds. Clears of storage become passes.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -105,6 +105,38 @@ ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& exp
   if (depth && (numbers[0] < 0 || numbers[0] > 1)) checker.report(DiagnosticKind::DepthClearRange, expr.span, {resource.name});
   set_image_clear(out, format, aspects, numbers);
   return out;
+}
+
+// `atomic tiles clear 0` -> pass `NAME.clear` : transfer { fill tiles 0 }, right before.
+Pass clear_pass(const Graph& graph, Pass& pass) {
+  Pass clear;
+  clear.name = pass.name + ".clear";
+  clear.module = pass.module;
+  clear.kind = PassKind::transfer;
+  clear.queue = pass.queue;
+  clear.queue_may = pass.queue_may;
+  clear.guard = pass.guard;
+  clear.conditions = pass.conditions;
+  clear.span = pass.span;
+  for (Access& access : pass.accesses) {
+    if (!access.clear || !is_shader_role(access.role)) continue;
+    const bool image = graph.resources[access.resource].kind == ResourceKind::image;
+    Access target = access;
+    target.mode = Mode::write;
+    target.role = image ? Role::clear_dst : Role::fill_dst;
+    target.stages = 0;
+    target.clear.reset();
+    target.disjoint = target.covers = false;
+    Transfer transfer;
+    transfer.kind = image ? TransferKind::clear : TransferKind::fill;
+    transfer.dst = static_cast<uint32_t>(clear.accesses.size());
+    transfer.value = *access.clear;
+    clear.accesses.push_back(std::move(target));
+    clear.transfers.push_back(std::move(transfer));
+    access.clear.reset();
+    if (access.mode == Mode::write) access.mode = Mode::update;
+  }
+  return clear;
 }
 
 }  // namespace rg::dsl

@@ -255,9 +255,46 @@ const Pass* find_later_writer(const Walk& walk, uint32_t pass, const Access& rea
   return nullptr;
 }
 
-const char* why_maybe(const Pass& pass) {
-  if (!pass.conditions.empty()) return "the host decides whether it runs";
-  if (!pass.guard.terms.empty()) return "it exists only with some features";
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "`" : " and `") + word + "`";
+  return text;
+}
+
+// Conditions of the host on which the writer runs and the reader need not.
+std::string deciding(const Walk& walk, const Pass& reader, const Pass& writer) {
+  std::vector<std::string> names;
+  for (const ConditionId id : writer.conditions)
+    if (!implies(reader.conditions, {id})) names.push_back(walk.checker.program.conditions[id].name);
+  return joined(names);
+}
+
+// Values of features with which the reader is there and none of the writers is, the first such choice; empty: there is none.
+std::string missing_with(const Walk& walk, const Pass& reader, const std::vector<uint32_t>& writers) {
+  constexpr uint64_t kBudget = 16384;
+  const auto& features = walk.checker.program.features;
+  std::vector<bool> of_writers(features.size()), matters(features.size());
+  const auto mention = [](const Guard& guard, std::vector<bool>& out) {
+    for (const Guard::Term& term : guard.terms) out[term.feature.value] = true;
+  };
+  for (const uint32_t writer : writers) mention(walk.graph.passes.rows[writer].guard, of_writers);
+  matters = of_writers;
+  mention(reader.guard, matters);
+  std::vector<std::string> words;
+  const bool searched =
+      each_configuration(features, FeatureValues(features.size(), kFreeFeature), matters, kBudget, [&](const FeatureValues& values) {
+        const auto is_there = [&](uint32_t writer) { return holds(walk.graph.passes.rows[writer].guard, values); };
+        if (!holds(reader.guard, values) || std::any_of(writers.begin(), writers.end(), is_there)) return true;
+        for (uint32_t id = 0; id < features.size(); ++id)
+          if (of_writers[id]) words.push_back(features.rows[id].name + "=" + features.rows[id].values[values[id]]);
+        return false;
+      });
+  return words.empty() && !searched ? "some features" : joined(words);
+}
+
+std::string why_maybe(const Walk& walk, const Pass& reader, const Pass& pass, const std::vector<uint32_t>& writers) {
+  if (const std::string names = deciding(walk, reader, pass); !names.empty()) return "the host decides by " + names + " whether it runs";
+  if (const std::string values = missing_with(walk, reader, writers); !values.empty()) return "it is missing with " + values;
   if (pass.dispatch.kind == DispatchKind::indirect) return "its work is counted on the GPU; declare `clear` or `covers`";
   if (!pass.mip_limits.empty()) return "it is skipped where the extent leaves too few mips";
   return "it keeps what it does not touch; declare `clear` or `covers`";
@@ -289,7 +326,8 @@ void explain(const Walk& walk, uint32_t pass, const Access& access, Diagnostic& 
   const std::string missing = first_missing(walk, access);
   if (missing.empty() && !tracked.may.empty()) {
     const Pass& writer = walk.graph.passes.rows[tracked.may.back()];
-    diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why_maybe(writer)});
+    const std::string why = why_maybe(walk, walk.graph.passes.rows[pass], writer, tracked.may);
+    diagnostic.note(DiagnosticKind::WrittenMaybe, writer.span, {writer.name, why});
     return;
   }
   if (!missing.empty()) diagnostic.note(DiagnosticKind::WrittenPartly, access.span, {missing});

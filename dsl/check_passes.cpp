@@ -96,9 +96,9 @@ void read_dispatch_size(Builder& at, const ast::Expr& expr) {
   if (!size.ok()) return void(at.out.dropped = at.scope.incomplete = true);
   if (size.kind != Value::Kind::integer) return fail(at, DiagnosticKind::NotASize, expr.span);
   for (uint8_t axis = 0; axis < 3; ++axis) {
-    const Scalar64 scalar = axis < size.axes ? size.at[axis] : Scalar64{1, {}};
-    if (scalar.known() && scalar.value < 1) return fail(at, DiagnosticKind::EmptyDispatch, expr.span, {std::to_string(scalar.value)});
-    at.out.pass.dispatch.size[axis] = to_expr(at.checker, scalar);
+    const ExprId count = to_expr(at.checker, axis < size.axes ? size.at[axis] : Scalar64{1, {}});
+    if (const auto few = too_few(at.checker, count, 1)) return fail(at, DiagnosticKind::EmptyDispatch, expr.span, {std::to_string(*few)});
+    at.out.pass.dispatch.size[axis] = count;
   }
 }
 
@@ -257,6 +257,13 @@ void read_multiview(Builder& at, const ast::WordStatement& node) {
   at.out.pass.multiview = true;
 }
 
+// A plan has one set of the engine for each pass. Bundles may each say the same.
+void bind_set(Builder& at, const std::string& name, Span span) {
+  std::string& bound = at.out.pass.bind;
+  if (!bound.empty() && bound != name) return fail(at, DiagnosticKind::SecondBind, span, {at.out.pass.name, bound, name});
+  bound = name;
+}
+
 void visit_all(Builder& at, const std::vector<ast::Statement>& statements);
 
 // `with world`: the statements of the bundle, as if they stood here.
@@ -300,7 +307,7 @@ void visit(Builder& at, const ast::WordStatement& node) {
   if (node.word.text == "with") return read_bundle(at, *node.value);
   const auto symbol = find_symbol(at.checker, at.scope.module, *node.value, SymbolKind::set);
   if (!symbol) return void(at.out.dropped = true);
-  at.out.pass.bind = std::string(at.checker.symbols[*symbol].name.text);
+  bind_set(at, std::string(at.checker.symbols[*symbol].name.text), node.span);
 }
 
 void visit(Builder& at, const ast::FeaturesStatement& node) {
@@ -392,38 +399,6 @@ void settle_stages(Pass& pass) {
     if (access.stages == 0) access.stages = default_stages(pass, access.role);
 }
 
-// `atomic tiles clear 0` -> pass `NAME.clear` : transfer { fill tiles 0 }, right before.
-Pass clear_pass(const Graph& graph, Pass& pass) {
-  Pass clear;
-  clear.name = pass.name + ".clear";
-  clear.module = pass.module;
-  clear.kind = PassKind::transfer;
-  clear.queue = pass.queue;
-  clear.queue_may = pass.queue_may;
-  clear.guard = pass.guard;
-  clear.conditions = pass.conditions;
-  clear.span = pass.span;
-  for (Access& access : pass.accesses) {
-    if (!access.clear || !is_shader_role(access.role)) continue;
-    const bool image = graph.resources[access.resource].kind == ResourceKind::image;
-    Access target = access;
-    target.mode = Mode::write;
-    target.role = image ? Role::clear_dst : Role::fill_dst;
-    target.stages = 0;
-    target.clear.reset();
-    target.disjoint = target.covers = false;
-    Transfer transfer;
-    transfer.kind = image ? TransferKind::clear : TransferKind::fill;
-    transfer.dst = static_cast<uint32_t>(clear.accesses.size());
-    transfer.value = *access.clear;
-    clear.accesses.push_back(std::move(target));
-    clear.transfers.push_back(std::move(transfer));
-    access.clear.reset();
-    if (access.mode == Mode::write) access.mode = Mode::update;
-  }
-  return clear;
-}
-
 PassId add_pass(Builder& at, Pass pass) {
   const std::string name = pass.name;
   const PassId id = at.scope.graph.passes.add(std::move(pass));
@@ -486,6 +461,7 @@ void declare_pass(Checker& checker, GraphScope& scope, const ast::PassDeclaratio
   if (at.out.dropped) return drop_pass(at);
   merge_reads_and_writes(at.out.pass);
   if (!bind_buffers(checker, scope.graph, at.out.pass, at.draw_span)) return drop_pass(at);
+  if (!check_amounts(checker, scope.graph, at.out.pass, at.has_dispatch ? at.dispatch_span : at.draw_span)) return drop_pass(at);
   settle_modes(at);
   settle_stages(at.out.pass);
   name_hidden_accesses(at.out.pass);

@@ -137,20 +137,32 @@ void read_format(Builder& at) {
   at.ok = false;
 }
 
-// What a size comes to: known now, or at the initial and the maximal extents; the first that is out of bounds, if one is.
-std::optional<int64_t> beyond(Checker& checker, const Scalar64& size, int64_t most) {
+// What a size comes to: known now, or at the initial, the greatest and the least extents; the first that is out of bounds, if one is. Where the least
+// extents leave nothing, as a half of 1 does, there is one element.
+struct Beyond {
+  int64_t value = 0;
+  bool at_least = false;
+};
+std::optional<Beyond> beyond(Checker& checker, const Scalar64& size, int64_t most) {
   const auto fits = [&](int64_t value) { return value >= 1 && value <= most; };
-  if (size.known()) return fits(size.value) ? std::nullopt : std::optional(size.value);
+  if (size.known()) return fits(size.value) ? std::nullopt : std::optional(Beyond{size.value, false});
   for (const auto& extents : {initial_extents(checker.program), maximum_extents(checker.program)}) {
     const int64_t value = evaluate(checker.program, size.expr, extents);
-    if (!fits(value)) return value;
+    if (!fits(value)) return Beyond{value, false};
   }
-  return std::nullopt;
+  const int64_t least = evaluate(checker.program, size.expr, minimum_extents(checker.program));
+  return least < 0 || least > most ? std::optional(Beyond{least, true}) : std::nullopt;
+}
+
+void fail_beyond(Builder& at, DiagnosticKind kind, Span span, const Beyond& wrong) {
+  Diagnostic& diagnostic = at.checker.report(kind, span, {at.resource.name, std::to_string(wrong.value)});
+  if (wrong.at_least) diagnostic.note(DiagnosticKind::AtLeastExtents, span);
+  at.ok = false;
 }
 
 bool check_axis(Builder& at, const Scalar64& axis) {
   const auto wrong = beyond(at.checker, axis, 65536);
-  if (wrong) fail(at, DiagnosticKind::ImageSize, at.node.size->span, {at.resource.name, std::to_string(*wrong)});
+  if (wrong) fail_beyond(at, DiagnosticKind::ImageSize, at.node.size->span, *wrong);
   return !wrong;
 }
 
@@ -205,6 +217,9 @@ void check_mips(Builder& at) {
          {at.resource.name, std::to_string(at.resource.mips), std::to_string(longest), std::to_string(chain)});
 }
 
+// Equal formulas are equal at all extents.
+bool is_square(Builder& at) { return (at.checker.formulas.of(at.resource.width) - at.checker.formulas.of(at.resource.height)).terms().empty(); }
+
 void check_image_shape(Builder& at) {
   const Resource& image = at.resource;
   const FormatInfo& format = info(image.format);
@@ -212,6 +227,7 @@ void check_image_shape(Builder& at) {
   if (image.samples > 1 && (image.mips > 1 || image.dimension != Dimension::d2)) fail(at, DiagnosticKind::SamplesOfShape, span, {image.name});
   if (image.dimension == Dimension::d3 && image.layers > 1) fail(at, DiagnosticKind::LayersOfVolume, span, {image.name});
   if (image.dimension == Dimension::d3 && !format.is_color()) fail(at, DiagnosticKind::DepthVolume, span, {image.name, format.name});
+  if (image.dimension == Dimension::cube && !is_square(at)) fail(at, DiagnosticKind::CubeNotSquare, at.node.size->span, {image.name});
   if (image.samples > 1 && format.is_block()) fail(at, DiagnosticKind::BlockFormatUse, span, {image.name, format.name, "have several samples"});
 }
 
@@ -236,8 +252,7 @@ void read_count(Builder& at) {
   const Value count = evaluate_expr(at.checker, &at.scope, at.scope.module, *type.count);
   if (!count.ok()) return void(at.ok = false);
   if (count.kind != Value::Kind::integer || count.axes != 1) return fail(at, DiagnosticKind::NotAnInteger, type.count->span);
-  if (const auto wrong = beyond(at.checker, count.at[0], UINT32_MAX))
-    return fail(at, DiagnosticKind::BufferSize, type.count->span, {at.resource.name, std::to_string(*wrong)});
+  if (const auto wrong = beyond(at.checker, count.at[0], UINT32_MAX)) return fail_beyond(at, DiagnosticKind::BufferSize, type.count->span, *wrong);
   at.resource.count = to_expr(at.checker, count.at[0]);
 }
 

@@ -216,6 +216,8 @@ SpectrumId spectrum_of(Checker& checker, uint32_t symbol);
 void declare_resource(Checker& checker, GraphScope& scope, const ast::ResourceDeclaration& declaration);
 void declare_parameters(Checker& checker, GraphScope& scope, const ast::GraphDeclaration& graph);
 ClearValue clear_value(Checker& checker, GraphScope& scope, const ast::Expr& expr, const Resource& resource, uint32_t aspects);
+// Clears of storage that the pass declares, as a pass of their own; the pass goes without them.
+Pass clear_pass(const Graph& graph, Pass& pass);
 // The full name with the values of its indices: `shadow[2][0]`.
 std::optional<std::string> indexed_name(Checker& checker, GraphScope& scope, const ast::Name& name, const std::vector<ast::Expr>& indices);
 std::optional<Role> find_role(std::string_view word);
@@ -270,6 +272,10 @@ void merge_reads_and_writes(Pass& pass);
 // Where the plan records the draw: each vertex struct takes the next buffer read `as vertex`, an indexed draw the one read `as index`. False after a
 // report.
 bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span draw);
+// The count at the extents where it is least, if that is below `least`; where extents decide, a count of nothing may come up.
+std::optional<int64_t> too_few(const Checker& checker, ExprId count, int64_t least);
+// Draws count from 1 on and stay within their indices, and indirect arguments within their buffers, as far as sizes are known. False after a report.
+bool check_amounts(Checker& checker, const Graph& graph, Pass& pass, Span work);
 void name_hidden_accesses(Pass& pass);
 bool is_shader_role(Role role);
 bool is_attachment(Role role);

@@ -172,16 +172,24 @@ bool belongs(Checker& checker, const PassScope& out, const TransferWord& word, S
   return fits;
 }
 
-// vkCmdResolveImage knows colour alone (VUID-VkImageResolve-aspectMask-00266), and renderings resolve that or depth.
+// vkCmdResolveImage knows no other aspect than colour (VUID-VkImageResolve-aspectMask-00266); renderings resolve depth, too.
 bool resolves_aspects(const Between& at, const PassScope& out) {
   const Resource &from = at.from(), &to = at.to();
-  if (at.word.kind != TransferKind::resolve || info(from.format).is_color()) return true;
+  const FormatInfo& format = info(from.format);
+  if (at.word.kind != TransferKind::resolve || format.is_color()) return true;
+  const bool both = format.aspects == (aspect_depth | aspect_stencil);
+  const std::string depth = both ? ".depth" : "", way = from.name + depth + " -> " + to.name + depth;
   if (out.pass.kind == PassKind::transfer) {
-    at.checker.report(DiagnosticKind::ResolveOfDepth, at.span, {from.name, name(from.format), to.name});
+    at.checker.report(DiagnosticKind::ResolveOfDepth, at.span, {from.name, name(from.format), from.name + depth, to.name + depth});
     return false;
   }
-  if (aspects_of(to, at.dst.range) == aspect_depth) return true;
-  at.checker.report(DiagnosticKind::TransferAspects, at.span, {"resolve", from.name, "gives depth", to.name, aspects_text(to, at.dst.range)});
+  if (aspects_of(from, at.src.range) == aspect_depth && aspects_of(to, at.dst.range) == aspect_depth) return true;
+  const auto& accesses = out.pass.accesses;
+  const bool draws_depth = std::any_of(accesses.begin(), accesses.end(),
+                                       [&](const Access& access) { return access.resource == at.src.resource && access.role == Role::depth; });
+  at.checker.report(DiagnosticKind::ResolveOfStencil, at.span,
+                    {from.name, name(from.format),
+                     draws_depth && at.src.range.aspects != aspect_stencil ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
   return false;
 }
 

@@ -93,7 +93,8 @@ bool read_fields(Checker& checker, uint32_t module, const ast::StructDeclaration
     if (node.name.empty()) return false;
     const auto [at, fresh] = seen.emplace(node.name.text, node.name.span);
     if (!fresh) report_duplicate(checker, node.name, at->second), ok = false;
-    if (reserved_in_glsl(node.name.text)) checker.report(DiagnosticKind::ReservedName, node.name.span, {std::string(node.name.text)}), ok = false;
+    if (reserved_in_glsl(node.name.text))
+      checker.report(DiagnosticKind::ReservedName, node.name.span, {std::string(node.name.text), "call the field otherwise"}), ok = false;
     std::optional<Field> field = read_field(checker, module, node);
     if (field) record.fields.push_back(std::move(*field));
     ok = ok && field.has_value();
@@ -130,7 +131,7 @@ StructId declare_struct(Checker& checker, uint32_t module, const ast::StructDecl
   record.name = std::string(declaration.name.text);
   record.span = declaration.name.span;
   if (reserved_in_glsl(declaration.name.text)) {
-    checker.report(DiagnosticKind::ReservedName, record.span, {record.name});
+    checker.report(DiagnosticKind::ReservedName, record.span, {record.name, "call the struct otherwise"});
     return {};
   }
   if (declaration.name.empty() || !read_fields(checker, module, declaration, record)) return {};

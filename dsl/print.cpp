@@ -357,4 +357,6 @@ std::string print_tokens(std::string_view text, const Tokens& tokens) {
   return out;
 }
 
+const char* print_role(Role role) { return kRoles[static_cast<size_t>(role)]; }
+
 }  // namespace rg::dsl

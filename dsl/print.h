@@ -15,5 +15,6 @@ std::string print_tree(const ast::File& file);                          // neste
 std::string print_program(const Program& program);                      // one line a row, names instead of ids
 std::string print_expr(const Program& program, ExprId id);              // `ceil(view.x / 8) * 2`
 std::string print_type(const Program& program, const Type& type);
+const char* print_role(Role role);
 
 }  // namespace rg::dsl

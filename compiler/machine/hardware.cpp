@@ -162,12 +162,16 @@ Stages with_later(Stages stages) { return stages | later_in(kGraphics, stages) |
 
 bool is_attachment(Role role) { return role == Role::color || role == Role::depth || role == Role::depth_readonly || role == Role::stencil; }
 
+bool loads(const dsl::Pass& pass, const dsl::Access& access) {
+  const bool fullscreen = pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && access.mode == Mode::write;
+  const bool covered = (access.covers || fullscreen) && !access.blend.enabled;
+  return !access.clear && !covered;
+}
+
 bool needs_contents(const dsl::Pass& pass, const dsl::Access& access) {
   if (access.mode == Mode::read || access.mode == Mode::atomic) return true;
   if (!is_attachment(access.role)) return access.mode == Mode::update;
-  const bool fullscreen = pass.draw.kind == dsl::DrawKind::fullscreen && access.role == Role::color && access.mode == Mode::write;
-  const bool covered = (access.covers || fullscreen) && !access.blend.enabled;
-  return is_slice(access) || (!access.clear && !covered);
+  return is_slice(access) || loads(pass, access);
 }
 
 bool commutes(const dsl::Access& access) { return access.mode == Mode::atomic || (access.disjoint && access.mode != Mode::read); }
@@ -175,7 +179,12 @@ bool commutes(const dsl::Access& access) { return access.mode == Mode::atomic ||
 std::vector<Touch> touches_of(const dsl::Pass& pass, const dsl::Access& access) {
   const uint32_t standard = pass.kind == dsl::PassKind::raster ? dsl::stage_fragment : dsl::stage_compute;
   const bool reads = needs_contents(pass, access), writes = access.mode != Mode::read;
-  return touches_as(access.role, reads, writes, access.stages ? access.stages : standard, pass.kind == dsl::PassKind::transfer);
+  std::vector<Touch> touches = touches_as(access.role, reads, writes, access.stages ? access.stages : standard, pass.kind == dsl::PassKind::transfer);
+  // Nothing is read of slices that are drawn anew, but the mip's other slices have to stay: the write finds them in its own cache.
+  const bool anew = access.role == Role::color && is_slice(access) && access.mode != Mode::read && !loads(pass, access);
+  for (Touch& touch : touches)
+    if (anew && !touch.writes) touch.access = access::color_attachment_write;
+  return touches;
 }
 
 std::vector<Touch> touches_of(const dsl::BoundaryState& state) {
@@ -196,6 +205,15 @@ Layout layout_of_aspect(Layout layout, uint32_t aspect) {
     default:
       return layout;
   }
+}
+
+Layout layout_of_both(Layout first, Layout second) {
+  for (const Layout both : {Layout::depth_stencil_attachment, Layout::depth_stencil_read_only, Layout::depth_read_only_stencil_attachment,
+                            Layout::depth_attachment_stencil_read_only}) {
+    const Layout depth = layout_of_aspect(both, aspect_depth), stencil = layout_of_aspect(both, aspect_stencil);
+    if ((depth == first && stencil == second) || (depth == second && stencil == first)) return both;
+  }
+  return first;
 }
 
 bool permits(Layout layout, Role role, bool writes) {

@@ -37,6 +37,8 @@ bool commutes(const dsl::Access& access);
 
 // Combined depth-stencil layouts mean one layout for each aspect.
 Layout layout_of_aspect(Layout layout, uint32_t aspect);
+// The combined layout that means these two, or the first where none does.
+Layout layout_of_both(Layout first, Layout second);
 // May an access of this role find its image in this layout?
 bool permits(Layout layout, dsl::Role role, bool writes);
 

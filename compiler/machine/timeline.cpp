@@ -309,11 +309,13 @@ struct Unroller {
 
   // ---- the engine, before and after the frame ----
 
+  // Depth and stencil may have a row each.
   Layout boundary_layout(std::span<const Boundary> boundaries, uint32_t resource, dsl::Role role) const {
+    Layout layout = kUnusable;
     for (const Boundary& boundary : boundaries)
       if (in.program_resource[boundary.ref.resource] == resource && (role == dsl::Role::undefined || permits(boundary.layout, role, false)))
-        return boundary.layout;
-    return role == dsl::Role::undefined ? Layout::undefined : kUnusable;
+        layout = layout == kUnusable ? boundary.layout : layout_of_both(layout, boundary.layout);
+    return layout == kUnusable && role == dsl::Role::undefined ? Layout::undefined : layout;
   }
   Stages boundary_stages(uint32_t resource) const {
     Stages stages = 0;

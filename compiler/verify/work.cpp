@@ -109,19 +109,23 @@ bool declares_resolve(const dsl::Pass& pass) {
 
 void check_resolves(const Work& work, const Rendering& rendering) {
   const auto& attachments = work.model.input->plan.attachments;
-  uint32_t planned = 0;
-  for (uint32_t i = 0; i < rendering.color_count; ++i) planned += attachments[rendering.first_color + i].resolve.resource != kNone;
-  if (rendering.depth != kNone) planned += attachments[rendering.depth].resolve.resource != kNone;
   const auto resolves = [](const dsl::Transfer& transfer) { return transfer.kind == dsl::TransferKind::resolve; };
-  if (planned != std::count_if(work.pass.transfers.begin(), work.pass.transfers.end(), resolves))
-    report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
-  for (uint32_t i = 0; i < rendering.color_count; ++i) {
-    const Attachment& row = attachments[rendering.first_color + i];
+  std::vector<Index> rows;
+  for (uint32_t i = 0; i < rendering.color_count; ++i) rows.push_back(rendering.first_color + i);
+  for (const Index row : {rendering.depth, rendering.stencil})
+    if (row != kNone) rows.push_back(row);
+  std::ptrdiff_t planned = 0;
+  for (const Index index : rows) {
+    const Attachment& row = attachments[index];
+    if (row.resolve.resource == kNone) continue;
+    ++planned;
     const bool declared = std::any_of(work.pass.transfers.begin(), work.pass.transfers.end(), [&](const dsl::Transfer& transfer) {
       return resolves(transfer) && names_access(work, row.ref, transfer.src) && names_access(work, row.resolve, transfer.dst);
     });
-    if (row.resolve.resource != kNone && !declared) report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
+    if (!declared || index == rendering.stencil) report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
   }
+  if (planned != std::count_if(work.pass.transfers.begin(), work.pass.transfers.end(), resolves))
+    report_work(work, dsl::kAll, "the rendering resolves otherwise than declared");
 }
 
 // What the access names beside the subresource: slices of a volume, and whether it is seen in another format. (Numbers of formats are no business of

@@ -4,7 +4,7 @@ condition late
 sampler linear { filter linear }
 graph g(surface s: rgba8 view) {
   image  mid    : rgba16f view
-  image  half   : rgba16f view / 2
+  image  lower   : rgba16f view / 2
   image  layers : rgba16f view layers 2
   image  deep   : rgba16f view samples 4
   buffer counts : u32[64]
@@ -17,7 +17,7 @@ graph g(surface s: rgba8 view) {
   pass p6 : compute { block "x.glsl"  write mid as element  dispatch groups view }  //~ error[RG0721]: pass `p6` cannot be a block: its elements are those of `dispatch over`
   pass p7 : compute { block "x.glsl"  write many as element  dispatch over view }  //~ error[RG0721]: pass `p7` cannot be a block: where its elements end is known from an image `as element`, or because the size is constant
   pass p8 : compute { shader "x.comp" group 8 8 1  write mid as element  dispatch over view }  //~ error[RG0724]: `mid` is accessed `as element`, but pass `p8` has no block
-  pass p9 : compute { block "x.glsl"  read half as element  write mid as element  dispatch over view }  //~ error[RG0725]: `half` has no one element for each of pass `p9`: its size is [floor(view.x / 2), floor(view.y / 2)], that of the pass [view.x, view.y]
+  pass p9 : compute { block "x.glsl"  read lower as element  write mid as element  dispatch over view }  //~ error[RG0725]: `lower` has no one element for each of pass `p9`: its size is [floor(view.x / 2), floor(view.y / 2)], that of the pass [view.x, view.y]
   pass p10 : compute { block "x.glsl"  write layers as element  write mid as element  dispatch over view }  //~ error[RG0725]: `layers` has no one element for each of pass `p10`: it has layers; name one
   pass p11 : compute { block "x.glsl"  write counts as element  write mid as element  dispatch over view }  //~ error[RG0725]: `counts` has no one element for each of pass `p11`: its size is 64, that of the pass [view.x, view.y]
   pass p12 : compute { block "x.glsl"  atomic many as element  write mid as element  dispatch over view }  //~ error[RG0336]: `atomic` does not go with role `element`

@@ -12,7 +12,7 @@ const CYCLE_TOO = CYCLE
 struct View { a: f32  a: f32  gl_position: vec4  up: vec33  far: f32[0]  open: f32[] }  //~ error[RG0201]: `a` is declared twice
 //~^ error[RG0209]: there is no type called `vec33`
 //~^^ error[RG0210]: field `open` needs a length: only the arrays of buffers may leave it open
-//~^^^ error[RG0213]: `gl_position` is reserved in GLSL
+//~^^^ error[RG0213]: `gl_position` is reserved in GLSL; call the field otherwise
 //~^^^^ error[RG0218]: 0 is not between 1 and 16777216
 //~^^^^^ note[RG0202]: `a` is declared here
 //~^^^^^^ note[RG0605]: did you mean `vec3`?

@@ -11,7 +11,7 @@ graph g(engine: In, surface s: rgba8 16x16 after present) {
   buffer c : u32[64]
   buffer d : u32[64] output
   buffer args : DrawArguments[4]
-  buffer count : u32[1]
+  buffer count : u32[4]
   image shade : d32f_s8 16x16 samples 4
   pass t : transfer {
     copy engine.staging -> d

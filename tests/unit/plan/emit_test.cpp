@@ -132,5 +132,34 @@ TEST(Emit, EveryPassResourceAndBarrierIsExplained) {
   EXPECT_TRUE(has("group 1", "barrier", "`hdr`: read after write"));
 }
 
+// A pass that can stand in one place only is not told of others, and what the engine takes after the frame is no read of a pass.
+TEST(Emit, ExplanationsDoNotContradictThemselves) {
+  const auto reason = [](const FramePlan& frame, const std::string& subject, const std::string& what) {
+    std::string last;
+    for (const Decision& decision : frame.decisions)
+      if (decision.subject == subject && decision.what == what) last = decision.reason;
+    return last;
+  };
+  const FramePlan alone = plan_of("pass show : raster { color backbuffer clear 0 }\n", {.reasons = true});
+  EXPECT_EQ(reason(alone, "show", "scheduled"), "after group 0");
+  EXPECT_EQ(reason(alone, "backbuffer", "barrier"), "in group 1: for `after copy_src`; who comes after the frame finds it in that state");
+  const FramePlan two = plan_of(
+      "image a : rgba8 view output\n image b : rgba8 view\n pass one : compute { write b as storage }\n"
+      "pass two : compute { read b as sampled  write a as storage }\n pass show : raster { color backbuffer clear 0 }\n",
+      {.reasons = true});
+  EXPECT_EQ(reason(two, "two", "scheduled"),
+            "after group 1, as early as it can: read after write on `b` with `one` just before; without that access it could run earlier");
+}
+
+TEST(Emit, TheStencilBesideAResolvedDepthStays) {
+  const FramePlan frame = plan_of(
+      "image d : d32f_s8 view samples 4\n image r : d32f_s8 view output\n"
+      "pass draw : raster { depth d clear 1  stencil d clear 0  resolve d.depth -> r.depth  draw host }\n"
+      "pass show : raster { color backbuffer clear 0 }\n");
+  const Rendering& rendering = frame.plan.renderings[pass_named(frame.plan, "draw").rendering];
+  EXPECT_EQ(frame.plan.attachments[rendering.depth].resolve.resource, resource_named(frame.plan, "r"));
+  EXPECT_EQ(frame.plan.attachments[rendering.stencil].resolve.resource, kNone);
+}
+
 }  // namespace
 }  // namespace rg::compiler
