@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -32,16 +33,30 @@ void tell(const CompileOptions& options, const std::string& what) {
   if (options.progress) options.progress(what);
 }
 
-std::vector<std::string> paths_read(const std::string& root_path, const CompileResult& result, const std::vector<std::string>& profiles) {
-  std::vector<std::string> paths;
-  for (const dsl::SourceFile& source : result.sources)
-    if (source.path.ends_with(".rg")) paths.push_back(source.path);
-  for (const std::string& path : profiles) paths.push_back(in_folder_of(root_path, path));
-  for (const CompiledGraph& graph : result.graphs)
-    for (const std::string& path : graph.shaders.read_files) paths.push_back(in_folder_of(root_path, path));
-  for (const std::string& path : profile_paths(result.program)) paths.push_back(in_folder_of(root_path, path));
-  return paths;
-}
+// Whatever was read, by whichever phase and thread.
+class ReadLog {
+ public:
+  dsl::ReadSource reader(dsl::ReadSource read) {
+    return [this, read = std::move(read)](const std::string& path, std::string& why) {
+      std::optional<std::string> text = read(path, why);
+      const std::lock_guard lock(mutex_);
+      if (text) paths_.push_back(path);
+      return text;
+    };
+  }
+  std::vector<std::string> take() {
+    if (paths_.empty()) return {};
+    std::sort(paths_.begin() + 1, paths_.end());  // the root file is read first
+    const std::string root = paths_.front();
+    paths_.erase(std::unique(paths_.begin() + 1, paths_.end()), paths_.end());
+    paths_.erase(std::remove(paths_.begin() + 1, paths_.end(), root), paths_.end());
+    return std::move(paths_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> paths_;
+};
 
 std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options,
                                            const ShaderCache* cache, CompileResult& result, dsl::Diagnostics& diagnostics) {
@@ -62,15 +77,13 @@ std::vector<SpectrumChoice> choose_kernels(const std::string& root_path, const d
   return resolve_spectra(result.program, shader_reader(root_path, read), replaced, result.sources, spectrum_options, diagnostics);
 }
 
-// Gives the files that blocks were read from.
-std::vector<std::string> make_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, CompileResult& result,
-                                      dsl::Diagnostics& diagnostics) {
+void make_kernels(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, CompileResult& result,
+                  dsl::Diagnostics& diagnostics) {
   const ReadFile reader = shader_reader(root_path, read);
   FusionResult fusion = fuse_passes(result.program, reader, result.sources, {options.fuse, options.halves}, diagnostics);
   result.written = std::exchange(result.program, std::move(fusion.program));
   result.fused = std::move(fusion.kernels);
   result.not_fused = std::move(fusion.refusals);
-  return std::move(fusion.read_files);
 }
 
 // Renderings clear and resolve by themselves where passes of their own would.
@@ -161,15 +174,12 @@ std::vector<FramePlan> plan_all(const CompileResult& result, const CompiledGraph
   return plans;
 }
 
-// Text to program, with what target profiles promise; their paths.
-std::vector<std::string> load(const std::string& root_path, const dsl::ReadSource& read, CompileResult& result, dsl::Diagnostics& diagnostics) {
+// Text to program, with what target profiles promise.
+void load(const std::string& root_path, const dsl::ReadSource& read, CompileResult& result, dsl::Diagnostics& diagnostics) {
   dsl::FrontEndResult front = dsl::load_program(root_path, read, diagnostics);
   result.sources = std::move(front.files);
-  if (diagnostics.has_errors()) return {};
-  std::vector<std::string> profiles;
-  for (const dsl::Profile& profile : front.program.profiles) profiles.push_back(profile.name);
+  if (diagnostics.has_errors()) return;
   result.program = read_profiles(std::move(front.program), shader_reader(root_path, read), diagnostics);
-  return profiles;
 }
 
 // What the graphs ask of devices, beside what the target profiles promise.
@@ -211,15 +221,13 @@ std::vector<GraphOutput> outputs_of(const CompileResult& result) {
   return outputs;
 }
 
-}  // namespace
-
 // The whole compiler, top to bottom. Each step consumes only what is above it.
-CompileResult compile(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+CompileResult run(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
   CompileResult result;
 
   // Text to program: lex, parse, check, with all imports.
   tell(options, root_path);
-  const std::vector<std::string> profiles = load(root_path, read, result, diagnostics);
+  load(root_path, read, result, diagnostics);
   diagnostics.judge_by(options.warnings);
   if (diagnostics.has_errors() || options.until == Until::program) return result;
 
@@ -235,7 +243,7 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   result.program = merge_features(std::move(result.program), options.fixed_features);
 
   // Blocks become kernels, one by one or several together.
-  const std::vector<std::string> block_files = make_kernels(root_path, read, options, result, diagnostics);
+  make_kernels(root_path, read, options, result, diagnostics);
   if (diagnostics.has_errors()) return result;
 
   // Passes that only clear or resolve become part of the renderings next to them.
@@ -247,8 +255,6 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
     result.graphs.push_back(compile_graph_shaders(root_path, read, dsl::GraphId{g}, options, cache ? &*cache : nullptr, result, diagnostics));
   for (const CompiledGraph& graph : result.graphs) result.complete = result.complete && graph.shaders.complete;
   if (cache) result.cache = settle(*cache, diagnostics);
-  result.read_files = paths_read(root_path, result, profiles);
-  for (const std::string& path : block_files) result.read_files.push_back(in_folder_of(root_path, path));
 
   // The gate: later phases cannot fail on user input; what they find is judged at the end.
   if (diagnostics.has_errors()) return result;
@@ -271,6 +277,18 @@ CompileResult compile(const std::string& root_path, const dsl::ReadSource& read,
   // Plans and SPIR-V to files.
   tell(options, "generated files");
   result.files = generate(result.program, outputs_of(result), result.sources, options.command);
+  return result;
+}
+
+}  // namespace
+
+CompileResult compile(const std::string& root_path, const dsl::ReadSource& read, const CompileOptions& options, dsl::Diagnostics& diagnostics) {
+  ReadLog log;
+  CompileOptions logged = options;
+  if (options.read_profile) logged.read_profile = log.reader(options.read_profile);
+  CompileResult result = run(root_path, log.reader(read), logged, diagnostics);
+  result.read_files = log.take();
+  if (!options.profile.empty()) result.read_files.push_back(options.profile);
   return result;
 }
 

@@ -66,7 +66,7 @@ struct CompileResult {
   std::vector<FoldRefusal> not_folded;
   std::vector<CompiledGraph> graphs;    // in order of declaration
   std::vector<GeneratedFile> files;     // paths relative to the output folder
-  std::vector<std::string> read_files;  // sources and shader files, for a depfile
+  std::vector<std::string> read_files;  // the root file, then sources, shaders and profiles by name: for depfiles, and not to be written to
   std::vector<ShaderTask> tasks;        // of all graphs, where they were asked for
   ShaderCache::Counts cache;            // what the cache gave and took
   bool complete = true;                 // false: it runs and draws the same, but was made in a hurry, or for kernels that are to be chosen anew

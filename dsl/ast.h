@@ -362,6 +362,7 @@ struct File {
   FileId file;
   Name module;
   std::optional<Target> target;
+  Span repeated_target;  // of another `target vulkan`, which is a mistake
   std::vector<ProfileTarget> profiles;
   std::vector<Import> imports;
   std::vector<Declaration> declarations;

@@ -71,6 +71,8 @@ void add_profiles(Checker& checker, const Module& module) {
 
 void check_target(Checker& checker, const ast::File& file) {
   if (!file.target || file.target->api.empty()) return;
+  if (file.repeated_target.file.valid())
+    checker.report(DiagnosticKind::RepeatedSetting, file.repeated_target, {"target vulkan"}).note(DiagnosticKind::FirstIsHere, file.target->span);
   const double version = file.target->version;
   checker.program.split_barriers = checker.program.split_barriers || !file.target->with.empty();
   if (version < 1.25 || version > 1.45) checker.report(DiagnosticKind::UnsupportedTarget, file.target->span, {std::to_string(version).substr(0, 3)});

@@ -70,6 +70,28 @@ bool bind_indices(const Draws& at) {
   return true;
 }
 
+const Field* find_bool(const Program& program, const Struct& record) {
+  for (const Field& field : record.fields) {
+    if (field.type.scalar == Scalar::boolean && !field.type.record.valid()) return &field;
+    const Field* inside = field.type.record.valid() ? find_bool(program, program.structs[field.type.record]) : nullptr;
+    if (inside) return inside;
+  }
+  return nullptr;
+}
+
+// Vertices reach a shader as inputs, and GLSL has none of type bool.
+bool check_vertices(const Draws& at) {
+  for (const VertexInput& input : at.pass.draw.vertex) {
+    const Struct& record = at.checker.program.structs[input.type];
+    const Field* field = find_bool(at.checker.program, record);
+    if (!field) continue;
+    at.checker.report(DiagnosticKind::VertexBool, field->span, {field->name, record.name})
+        .note(DiagnosticKind::AccessUsedHere, at.span, {record.name});
+    return false;
+  }
+  return true;
+}
+
 // ---- amounts ----------------------------------------------------------------------------------------------------
 
 // Both ends of what is named of the buffer may depend on extents; nothing is known of one that is as long as the host makes it.
@@ -148,6 +170,7 @@ bool check_amounts(Checker& checker, const Graph& graph, Pass& pass, Span work) 
 
 bool bind_buffers(Checker& checker, const Graph& graph, Pass& pass, Span span) {
   const DrawKind kind = pass.draw.kind;
+  if (!check_vertices({checker, graph, pass, span})) return false;
   if (kind != DrawKind::direct && kind != DrawKind::indirect && kind != DrawKind::indirect_count) return true;
   const Draws at{checker, graph, pass, span};
   return bind_vertices(at) && bind_indices(at);

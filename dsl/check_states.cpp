@@ -97,20 +97,26 @@ void read_bias(Checker& checker, uint32_t module, const ast::Setting& setting, S
 }
 
 // A number from 0 to 1; reports others.
-float read_share(Checker& checker, uint32_t module, const ast::Expr& expr) {
+std::optional<double> find_share(Checker& checker, uint32_t module, const ast::Expr& expr) {
   const auto value = evaluate_number(checker, nullptr, module, expr);
-  if (!value) return 0;
-  if (*value < 0 || *value > 1) checker.report(DiagnosticKind::OutOfRange, expr.span, {fmt::format("{}", *value), "0", "1"});
-  return static_cast<float>(*value);
+  if (!value || (*value >= 0 && *value <= 1)) return value;
+  checker.report(DiagnosticKind::OutOfRange, expr.span, {fmt::format("{}", *value), "0", "1"});
+  return std::nullopt;
+}
+
+float read_share(Checker& checker, uint32_t module, const ast::Expr& expr) {
+  return static_cast<float>(find_share(checker, module, expr).value_or(0));
 }
 
 void read_bounds(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {
   if (setting.values.size() != 2) return;
   state.depth_bounds = true;
-  state.depth_min = read_share(checker, module, setting.values[0]);
-  state.depth_max = read_share(checker, module, setting.values[1]);
-  if (state.depth_max < state.depth_min)
-    checker.report(DiagnosticKind::OutOfRange, setting.values[1].span, {fmt::format("{}", state.depth_max), fmt::format("{}", state.depth_min), "1"});
+  const auto least = find_share(checker, module, setting.values[0]), greatest = find_share(checker, module, setting.values[1]);
+  if (!least || !greatest) return;
+  state.depth_min = static_cast<float>(*least);
+  state.depth_max = static_cast<float>(*greatest);
+  if (*greatest < *least)
+    checker.report(DiagnosticKind::OutOfRange, setting.values[1].span, {fmt::format("{}", *greatest), fmt::format("{}", *least), "1"});
 }
 
 void read_sample_locations(Checker& checker, uint32_t module, const ast::Setting& setting, State& state) {

@@ -187,9 +187,10 @@ bool resolves_aspects(const Between& at, const PassScope& out) {
   const auto& accesses = out.pass.accesses;
   const bool draws_depth = std::any_of(accesses.begin(), accesses.end(),
                                        [&](const Access& access) { return access.resource == at.src.resource && access.role == Role::depth; });
-  at.checker.report(DiagnosticKind::ResolveOfStencil, at.span,
-                    {from.name, name(from.format),
-                     draws_depth && at.src.range.aspects != aspect_stencil ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
+  at.checker.report(
+      DiagnosticKind::ResolveOfStencil, at.span,
+      {from.name, name(from.format),
+       draws_depth && at.src.range.aspects != aspect_stencil ? "say `resolve " + way + "`" : "read the samples of its stencil in a shader"});
   return false;
 }
 

@@ -90,7 +90,8 @@ std::string print(const Diagnostics& diagnostics, const SourceFiles& files, bool
 // The documented JSON form, first_of(diagnostics, kMostForPrograms): an array of {code, name, severity, message, file, line, column, end_line,
 // end_column, notes, fixes}, with `suppressions` where a warning is allowed.
 std::string print_json(const Diagnostics& diagnostics, const SourceFiles& files);
-// SARIF 2.1.0 (OASIS) of as many, one run: rules are the codes that occur, notes with a place are related locations. Columns count bytes from 1.
+// SARIF 2.1.0 (OASIS) of as many, one run: rules are the codes that occur, notes with a place are related locations. Columns count code points
+// from 1.
 std::string print_sarif(const Diagnostics& diagnostics, const SourceFiles& files);
 
 }  // namespace rg::dsl

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dsl/diagnostics.h"
+#include "dsl/visible.h"
 
 namespace rg::dsl {
 namespace {
@@ -26,34 +27,48 @@ const SourceFile* file_of(const SourceFiles& files, Span span) {
 }
 
 // Tabs are kept in the marker line, so that it lines up whatever their width.
-std::string padding(std::string_view line, size_t columns) {
-  std::string pad(std::min(columns, line.size()), ' ');
-  for (size_t i = 0; i < pad.size(); ++i)
-    if (line[i] == '\t') pad[i] = '\t';
-  return pad + std::string(columns > line.size() ? columns - line.size() : 0, ' ');
+std::string padding(std::string_view line, size_t bytes) {
+  const std::string_view before = line.substr(0, bytes);
+  std::string pad;
+  for (size_t at = 0; at < before.size();) {
+    const size_t tab = std::min(before.find('\t', at), before.size());
+    pad += std::string(code_points(before.substr(at, tab - at)), ' ') + (tab < before.size() ? "\t" : "");
+    at = tab + 1;
+  }
+  return pad + std::string(bytes - before.size(), ' ');
+}
+
+// Where the character begins that has a byte at `at`.
+size_t character_at(std::string_view line, size_t at) {
+  for (size_t back = 0; back < 3 && at > back; ++back)
+    if (at - back < line.size() && (static_cast<unsigned char>(line[at - back]) & 0xc0) != 0x80) return at - back;
+  return at;
 }
 
 void print_snippet(Printer& printer, const SourceFile& file, Span span) {
   const Position at = file.position(span.begin);
   std::string_view line = file.line(at.line);
   size_t column = at.column - 1;
-  const size_t from = column > kMaxSnippet / 2 && line.size() > kMaxSnippet ? column - kMaxSnippet / 2 : 0;
-  line = line.substr(std::min(from, line.size()), kMaxSnippet);
+  const size_t from = column > kMaxSnippet / 2 && line.size() > kMaxSnippet ? character_at(line, column - kMaxSnippet / 2) : 0;
+  const size_t end = from + kMaxSnippet < line.size() ? character_at(line, from + kMaxSnippet) : line.size();
+  line = line.substr(std::min(from, line.size()), end - std::min(from, end));
   column -= from;
-  const size_t width = std::max<size_t>(1, std::min<size_t>(span.end - span.begin, line.size() > column ? line.size() - column : 1));
-  printer.out += fmt::format("{:>6} | {}\n", at.line, line);
+  const size_t bytes = std::min<size_t>(span.end - span.begin, line.size() > column ? line.size() - column : 1);
+  const size_t width = std::max<size_t>(1, column < line.size() ? code_points(line.substr(column, bytes)) : bytes);
+  printer.out += fmt::format("{:>6} | {}\n", at.line, visible(line));
   printer.out += fmt::format("       | {}{}\n", padding(line, column), printer.paint("\033[1;32m", "^" + std::string(width - 1, '~')));
 }
 
 void print_fix(Printer& printer, const FixIt& fix) {
   const SourceFile* file = file_of(printer.files, fix.span);
   if (!file) return;
-  const std::string old = file->text.substr(fix.span.begin, fix.span.end - fix.span.begin);
-  const size_t shown = fix.text.find_first_not_of("\n \t");
-  const bool line = fix.text.starts_with("\n") && shown != std::string::npos;
-  if (old.empty()) printer.out += fmt::format("       = fix: insert {}`{}`\n", line ? "a line " : "", line ? fix.text.substr(shown) : fix.text);
-  if (!old.empty() && fix.text.empty()) printer.out += fmt::format("       = fix: remove `{}`\n", old);
-  if (!old.empty() && !fix.text.empty()) printer.out += fmt::format("       = fix: write `{}` instead of `{}`\n", fix.text, old);
+  const std::string old = visible(file->text.substr(fix.span.begin, fix.span.end - fix.span.begin), LineBreaks::kept);
+  const std::string text = visible(fix.text, LineBreaks::kept);
+  const size_t shown = text.find_first_not_of("\n \t");
+  const bool line = text.starts_with("\n") && shown != std::string::npos;
+  if (old.empty()) printer.out += fmt::format("       = fix: insert {}`{}`\n", line ? "a line " : "", line ? text.substr(shown) : text);
+  if (!old.empty() && text.empty()) printer.out += fmt::format("       = fix: remove `{}`\n", old);
+  if (!old.empty() && !text.empty()) printer.out += fmt::format("       = fix: write `{}` instead of `{}`\n", text, old);
 }
 
 void print_one(Printer& printer, const Diagnostic& diagnostic) {
@@ -62,10 +77,10 @@ void print_one(Printer& printer, const Diagnostic& diagnostic) {
   const SourceFile* file = file_of(printer.files, diagnostic.span);
   if (file) {
     const Position at = file->position(diagnostic.span.begin);
-    printer.out += fmt::format("{}:{}:{}: ", file->path, at.line, at.column);
+    printer.out += fmt::format("{}:{}:{}: ", visible(file->path), at.line, at.column);
   }
   const std::string head = fmt::format("{}[{}]:", kSeverityNames[severity], info.code);
-  printer.out += printer.paint(kSeverityColours[severity], head) + " " + diagnostic.message() + "\n";
+  printer.out += printer.paint(kSeverityColours[severity], head) + " " + visible(diagnostic.message()) + "\n";
   if (file) print_snippet(printer, *file, diagnostic.span);
   for (const FixIt& fix : diagnostic.fixes) print_fix(printer, fix);
   for (const Diagnostic& child : diagnostic.notes) print_one(printer, child);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dsl/diagnostics.h"
+#include "dsl/visible.h"
 
 namespace rg::dsl {
 namespace {
@@ -36,9 +37,15 @@ std::string uri_of(const std::string& path) {
   return uri;
 }
 
+// SARIF knows no bytes: code points of the line, from 1.
+size_t column_of(const SourceFile& file, uint32_t offset) {
+  const uint32_t bytes = file.position(offset).column - 1;
+  return 1 + code_points(std::string_view(file.text).substr(offset - bytes, bytes));
+}
+
 Json region(const SourceFile& file, Span span) {
   const Position begin = file.position(span.begin), end = file.position(span.end);
-  return {{"startLine", begin.line}, {"startColumn", begin.column}, {"endLine", end.line}, {"endColumn", end.column}};
+  return {{"startLine", begin.line}, {"startColumn", column_of(file, span.begin)}, {"endLine", end.line}, {"endColumn", column_of(file, span.end)}};
 }
 
 Json artifact(const SourceFile& file) { return {{"uri", uri_of(file.path)}}; }

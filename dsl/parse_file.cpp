@@ -41,7 +41,8 @@ void parse_target(Parser& parser, File& file) {
   if (!parser.silent) target.version = parse_expression(parser, "a version").real;
   if (parser.accept_word("with")) target.with = parser.expect_one_of("`split_barriers`", {"split_barriers"});
   target.span = parser.since(begin);
-  if (!parser.silent) file.target = target;
+  if (file.target) file.repeated_target = target.span;
+  if (!parser.silent && !file.target) file.target = target;
 }
 
 Constant parse_constant(Parser& parser) {
@@ -388,7 +389,10 @@ void complain_about_declaration(Parser& parser) {
 }
 
 void parse_module(Parser& parser, File& file) {
-  if (!file.module.empty()) parser.complain({DiagnosticKind::RepeatedModule, parser.here(), {}});
+  const bool again = !file.module.empty(), late = !again && parser.at > 0 && !parser.any_error;
+  if (again) parser.complain({DiagnosticKind::RepeatedModule, parser.here(), {}});
+  if (late) parser.unexpected("a declaration; `module` stands first in a file");
+  parser.silent = again;
   parser.take();
   const Name name = parser.expect_name("the name of the module");
   if (file.module.empty()) file.module = name;

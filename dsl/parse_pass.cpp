@@ -62,7 +62,7 @@ ast::AccessStatement parse_access(Parser& parser, ast::Verb verb) {
   access.target = parse_place(parser, "a resource");
   while (!parser.silent && parse_access_option(parser, access)) continue;
   access.span = parser.since(begin);
-  complain_about_rest(parser, {"as", "clear", "blend", "covers", "disjoint", "readonly", "in"});
+  complain_about_rest(parser, {"as", "clear", "blend", "covers", "disjoint", "readonly", "in"}, begin);
   return access;
 }
 
@@ -98,7 +98,7 @@ ast::ShaderStatement parse_shader(Parser& parser) {
     }
   if (!parser.silent && shader.block && parser.is_word("scan")) parse_scan(parser, shader);
   shader.span = parser.since(begin);
-  complain_about_rest(parser, {"group", "scan", "associative"});
+  complain_about_rest(parser, {"group", "scan", "associative"}, begin);
   return shader;
 }
 
@@ -169,7 +169,7 @@ ast::DrawStatement parse_draw(Parser& parser) {
   }
   draw.span = parser.since(begin);
   if (!parser.silent) parse_draw_block(parser, draw);
-  complain_about_rest(parser, {"max", "count", "instances", "first", "offset"});
+  complain_about_rest(parser, {"max", "count", "instances", "first", "offset"}, begin);
   return draw;
 }
 
@@ -187,7 +187,7 @@ ast::TransferStatement parse_transfer(Parser& parser) {
   if (!parser.silent && (verb == "clear" || verb == "fill")) transfer.value = parse_expression(parser, "a value");
   if (!parser.silent && verb == "blit") transfer.linear = parser.accept_word("linear");
   transfer.span = parser.since(begin);
-  complain_about_rest(parser, {"linear"});
+  complain_about_rest(parser, {"linear"}, begin);
   return transfer;
 }
 
@@ -291,12 +291,26 @@ void parse_queue(Parser& parser, PassDeclaration& pass) {
   pass.queue_may = parser.accept_word("may");
 }
 
+// Where the statement that begins at `begin` has an option already that stands here once more; an empty span: it has not.
+Span first_of_option(const Parser& parser, const std::vector<std::string_view>& options, uint32_t begin) {
+  if (std::find(options.begin(), options.end(), parser.word()) == options.end()) return {};
+  for (size_t at = parser.at; at-- > 0 && parser.tokens[at].begin > begin;)
+    if (parser.tokens[at].kind == TokenKind::identifier && text_of(parser.tokens[at], parser.text) == parser.word())
+      return parser.span(parser.tokens[at]);
+  return {};
+}
+
 }  // namespace
 
-void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options) {
+void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options, uint32_t begin) {
   if (parser.silent || parser.peek().starts_line || parser.is(TokenKind::right_brace)) return;
   if (parser.is(TokenKind::identifier) && begins_statement(parser.word())) return;
   if (!parser.is(TokenKind::identifier)) return parser.unexpected("the end of the statement");
+  if (const Span first = first_of_option(parser, options, begin); first.file.valid()) {
+    Diagnostic twice(DiagnosticKind::RepeatedSetting, parser.here(), {std::string(parser.word())});
+    twice.note(DiagnosticKind::FirstIsHere, first);
+    return parser.complain(std::move(twice));
+  }
   Diagnostic diagnostic(DiagnosticKind::UnknownOption, parser.here(), {std::string(parser.word().substr(0, 40))});
   const Guess guess = closest(parser.word(), options);
   suggest(diagnostic, parser.here(), guess);

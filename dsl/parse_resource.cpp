@@ -51,6 +51,11 @@ bool parse_resource_setting(Parser& parser, ast::ResourceDeclaration& resource) 
 }
 
 void complain_about_setting(Parser& parser) {
+  for (const SettingShape& shape : kResourceSettings)
+    if (!shape.second.empty() && parser.is_word(shape.word)) {
+      parser.take();
+      return parser.expected("`" + std::string(shape.second) + "`");
+    }
   std::vector<std::string_view> words = {"init", "ready", "written", "after"};
   for (const SettingShape& shape : kResourceSettings) words.push_back(shape.word);
   Diagnostic diagnostic(DiagnosticKind::UnknownSetting, parser.here(), {std::string(parser.word().substr(0, 40)), "a resource"});

@@ -14,7 +14,11 @@ struct Axes {
   size_t tokens = 0;
 };
 
-void add_numbers(Axes& axes, std::string_view word) {
+bool is_hexadecimal(std::string_view word) { return word.starts_with("0x"); }
+
+void add_numbers(Axes& axes, const Parser& parser, size_t ahead) {
+  const std::string_view word = parser.word(ahead);
+  if (parser.is(TokenKind::integer, ahead)) return axes.numbers.push_back(word);  // `0x40` is one
   for (size_t at = 0; at <= word.size();) {
     const size_t end = std::min(word.find('x', at), word.size());
     axes.numbers.push_back(word.substr(at, end - at));
@@ -46,7 +50,7 @@ bool add_axis(const Parser& parser, AxesForm form, Axes& axes) {
   const unsigned joint = by ? words : parser.is(TokenKind::comma, ahead) ? commas : bare;
   if (joint != bare) ++ahead;
   if (!is_number(parser, ahead)) return false;
-  add_numbers(axes, parser.word(ahead));
+  add_numbers(axes, parser, ahead);
   axes.joints |= joint | (parser.is(TokenKind::dimensions, ahead) ? joined : 0u), axes.tokens = ahead + 1;
   return true;
 }
@@ -57,7 +61,7 @@ Axes axes_here(const Parser& parser, AxesForm form) {
   const bool opens = parser.is(TokenKind::left_paren) || parser.is(TokenKind::left_bracket);
   axes.tokens = opens ? 1 : 0;
   if (!is_number(parser, axes.tokens)) return {};
-  add_numbers(axes, parser.word(axes.tokens));
+  add_numbers(axes, parser, axes.tokens);
   axes.joints = (opens ? parentheses : 0u) | (parser.is(TokenKind::dimensions, axes.tokens) ? joined : 0u);
   ++axes.tokens;
   while (add_axis(parser, form, axes)) continue;
@@ -78,6 +82,14 @@ std::string written(const Axes& axes, AxesForm form) {
   return form == AxesForm::group ? join(axes.numbers, " ") : "(" + join(axes.numbers, ", ") + ")";
 }
 
+// `0x64` is a number, and where a size stands two axes are meant.
+bool complain_about_zero_axis(Parser& parser) {
+  const std::string_view word = parser.is(TokenKind::integer) ? parser.word() : std::string_view();
+  const bool axes = is_hexadecimal(word) && std::all_of(word.begin() + 2, word.end(), [](unsigned char c) { return std::isdigit(c); });
+  if (axes) parser.complain({DiagnosticKind::OutOfRange, parser.here(), {"the axis 0 of `" + std::string(word.substr(0, 40)) + "`", "1", "65536"}});
+  return axes;
+}
+
 }  // namespace
 
 bool complain_about_axes(Parser& parser, AxesForm form) {
@@ -94,6 +106,7 @@ bool complain_about_axes(Parser& parser, AxesForm form) {
 }
 
 ast::Expr parse_size(Parser& parser) {
+  if (complain_about_zero_axis(parser)) return {};
   if (complain_about_axes(parser, AxesForm::size)) return {};
   return parse_expression(parser, "a size");
 }

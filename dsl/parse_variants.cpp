@@ -60,7 +60,7 @@ ast::SpectrumStatement parse_spectrum_statement(Parser& parser) {
   if (!parser.silent) statement.masks = parse_place(parser, "a buffer of masks");
   if (!parser.silent && parser.accept_word("into")) statement.kernels = parse_place(parser, "an image of kernels");
   statement.span = parser.since(begin);
-  complain_about_rest(parser, {"by", "into"});
+  complain_about_rest(parser, {"by", "into"}, begin);
   return statement;
 }
 

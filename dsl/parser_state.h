@@ -134,8 +134,8 @@ ast::SpectrumStatement parse_spectrum_statement(Parser& parser);
 ast::SpectrumDeclaration parse_spectrum(Parser& parser);
 ast::FeatureTerm parse_feature_term(Parser& parser);
 ast::Fuse parse_fuse(Parser& parser);  // after `fuse`
-// Something on the same line that is neither one of `options` nor the next statement.
-void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options);
+// Something on the same line that is not the next statement; `options` are what the statement could take, which begins at `begin`.
+void complain_about_rest(Parser& parser, const std::vector<std::string_view>& options, uint32_t begin = UINT32_MAX);
 ast::GraphDeclaration parse_graph(Parser& parser, bool is_technique);
 void parse_items(Parser& parser, std::vector<ast::Item>& items);
 

@@ -24,6 +24,7 @@ Fixed apply_fixes(const dsl::Diagnostics& diagnostics, const dsl::SourceFiles& f
   bool first = true;
   for (const dsl::FixIt& fix : fixes) {
     if ((!first && fix.span.begin <= at && fix.span.begin < fix.span.end) || fix.span.begin < at || fix.span.end > text.size()) continue;
+    if (text.compare(fix.span.begin, fix.span.end - fix.span.begin, fix.text) == 0) continue;  // nothing would come of it, again and again
     fixed.text += text.substr(at, fix.span.begin - at) + fix.text;
     at = fix.span.end;
     first = false;

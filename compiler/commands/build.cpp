@@ -6,6 +6,7 @@
 #include "compiler/codegen/plan_file.h"
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "compiler/commands/outputs.h"
 
 namespace rg::commands {
 namespace {
@@ -19,6 +20,15 @@ std::vector<compiler::GeneratedFile> other_files(const BuildOptions& options, co
   return files;
 }
 
+// The files that options name.
+std::vector<Output> named_outputs(const BuildOptions& options) {
+  std::vector<Output> named;
+  if (!options.plan_file.empty()) named.push_back({"the plan file", options.plan_file});
+  if (!options.depfile.empty()) named.push_back({"the depfile", options.depfile});
+  if (!options.stamp.empty()) named.push_back({"the stamp", options.stamp});
+  return named;
+}
+
 // The banner names the file alone, so that the same program gives the same bytes wherever it is compiled from.
 compiler::CompileOptions with_banner(const BuildOptions& options) {
   compiler::CompileOptions compile = options.compile;
@@ -30,7 +40,7 @@ compiler::CompileOptions with_banner(const BuildOptions& options) {
 nlohmann::ordered_json manifest_of(const BuildOptions& options, const compiler::CompileResult& result) {
   nlohmann::ordered_json json = {
       {"schema", "rgc-jobs-1"}, {"file", options.file}, {"sources", nlohmann::ordered_json::array()}, {"jobs", nlohmann::ordered_json::array()}};
-  for (const dsl::SourceFile& source : result.sources) json["sources"].push_back(source.path);
+  for (const std::string& path : result.read_files) json["sources"].push_back(path);
   for (size_t i = 0; i < result.tasks.size(); ++i) {
     const compiler::ShaderTask& task = result.tasks[i];
     const std::string shard = fmt::format("{}/{}", i, result.tasks.size());
@@ -47,7 +57,8 @@ int write_manifest(const BuildOptions& options) {
   const auto result = compile_or_report(options.file, compile);
   if (!result) return exit_input_wrong;
   dsl::Diagnostics diagnostics;
-  write_file(options.manifest, manifest_of(options, *result).dump(2) + "\n", diagnostics);
+  if (may_write({{"the manifest", options.manifest}}, {}, result->read_files, diagnostics))
+    write_file(options.manifest, manifest_of(options, *result).dump(2) + "\n", diagnostics);
   return finish(diagnostics, result->sources);
 }
 
@@ -63,7 +74,8 @@ int build_part(const BuildOptions& options) {
     print(
         fmt::format("part {} of {}: {} found, {} stored\n", options.compile.shard, options.compile.shards, result->cache.hits, result->cache.stored));
   dsl::Diagnostics diagnostics;
-  if (!options.stamp.empty()) touch_file(options.stamp, diagnostics);
+  const bool stamps = !options.stamp.empty() && may_write({{"the stamp", options.stamp}}, {}, result->read_files, diagnostics);
+  if (stamps) touch_file(options.stamp, diagnostics);
   return finish(diagnostics, result->sources);
 }
 
@@ -82,7 +94,11 @@ int build(const BuildOptions& options) {
   const auto result = compile_or_report(options.file, with_banner(options));
   if (!result) return exit_input_wrong;
   dsl::Diagnostics diagnostics;
-  const auto written = write_output(options.folder, result->files, diagnostics, other_files(options, *result));
+  if (!may_write(named_outputs(options), outputs_in(options.folder, result->files), result->read_files, diagnostics))
+    return finish(diagnostics, result->sources);
+  std::vector<std::string> kept = result->read_files;
+  if (!options.stamp.empty()) kept.push_back(options.stamp);
+  const auto written = write_output(options.folder, result->files, diagnostics, other_files(options, *result), kept);
   if (!written || (!options.stamp.empty() && !touch_file(options.stamp, diagnostics))) return finish(diagnostics, result->sources);
   if (options.quiet) return exit_done;
   for (const std::string& name : written->changed) print(fmt::format("wrote   {}/{}\n", options.folder, name));

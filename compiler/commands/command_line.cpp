@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "compiler/commands/command.h"
+#include "compiler/commands/files.h"
 #include "compiler/workarounds.h"
 
 namespace rg::commands {
@@ -183,6 +184,13 @@ struct Subcommand {
   CLI::App* operator->() const { return command; }
 };
 
+// Of text that generated files repeat in comments and rules.
+CLI::Validator one_line() {
+  CLI::Validator validator("");
+  validator.operation([](std::string& text) { return has_controls(text) ? std::string("a control character has no place in it") : std::string(); });
+  return validator;
+}
+
 constexpr const char* kRootFile = "the root .rg file";
 
 // "3/8"; an empty text is success, as CLI11 wants it.
@@ -194,15 +202,20 @@ std::string read_shard(const std::string& text, compiler::CompileOptions& option
   return "";
 }
 
+void add_command(CLI::App& command, compiler::CompileOptions& options) {
+  command.add_option("--command", options.command, "what the banner of generated files tells to run; else `rgc build FILE`")
+      ->type_name("TEXT")
+      ->check(one_line());
+}
+
 void add_build(CLI::App& app, Run& run) {
   Subcommand<BuildOptions> command(app, run, "build", "compile a frame into C++ and SPIR-V; only what changed is written", build);
   BuildOptions& options = *command.options;
   command->add_option("FILE", options.file, kRootFile)->required();
-  command->add_option("-o,--output", options.folder, "the folder of the generated files")->type_name("DIR")->capture_default_str();
+  command->add_option("-o,--output", options.folder, "the folder of the generated files")->type_name("DIR")->capture_default_str()->check(one_line());
   command->add_option("--depfile", options.depfile, "write what was read as a Makefile rule")->type_name("FILE");
-  command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE");
-  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
-      ->type_name("TEXT");
+  command->add_option("--stamp", options.stamp, "touch this file after success; the target of the depfile")->type_name("FILE")->check(one_line());
+  add_command(*command.command, options.compile);
   command->add_option("--plan-file", options.plan_file, "also write the plans as data, for programs that load them; see docs/runtime.md")
       ->type_name("FILE");
   command->add_option("--manifest", options.manifest, "list the shader variants as jobs for other machines, as JSON, and build nothing")
@@ -221,8 +234,7 @@ void add_watch(CLI::App& app, Run& run) {
   command->add_option("FILE", options.file, kRootFile)->required();
   command->add_option("--plan-file", options.plan_file, "the file of plans that programs load; default: FILE with .rgplan")->type_name("FILE");
   command->add_option("-o,--output", options.folder, "also keep the generated files in this folder up to date")->type_name("DIR");
-  command->add_option("--command", options.compile.command, "what the banner of generated files tells to run; else `rgc build FILE`")
-      ->type_name("TEXT");
+  add_command(*command.command, options.compile);
   command->add_flag("-q,--quiet", options.quiet, "say only what is wrong");
   add_plan_options(*command.command, options.compile);
 }
@@ -320,7 +332,12 @@ void add_emit(CLI::App& app, Run& run) {
 
 // CLI11 would only say that a subcommand is missing.
 bool names_a_command(const CLI::App& app, const std::string& word) {
-  if (word.starts_with('-')) return true;
+  if (word.starts_with('-')) {
+    if (word == "-h" || word == "--help" || word == "--version") return true;
+    std::fprintf(stderr, "rgc: there is no option `%s` before a command; what a command takes stands behind it\n", word.c_str());
+    std::fprintf(stderr, "Run with --help for more information.\n");
+    return false;
+  }
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
   if (std::find(names.begin(), names.end(), word) != names.end()) return true;
@@ -328,6 +345,23 @@ bool names_a_command(const CLI::App& app, const std::string& word) {
   std::fprintf(stderr, "rgc: there is no command `%s`%s\n", word.c_str(), meant ? ("; did you mean `" + *meant + "`?").c_str() : "");
   std::fprintf(stderr, "Run with --help for more information.\n");
   return false;
+}
+
+// `--no-aliasing=` and `--no-aliasing=a,,b`, of which CLI11 makes `--no-aliasing` and `--no-aliasing=a,b`.
+bool lacks_a_name(std::string_view word) {
+  const size_t equal = word.find('=');
+  if (word.size() <= 3 || !word.starts_with("--") || equal == std::string_view::npos) return false;
+  const std::string_view list = word.substr(equal + 1);
+  return list.empty() || (word.starts_with("--no-") && (list.front() == ',' || list.back() == ',' || list.find(",,") != std::string_view::npos));
+}
+
+bool names_values(int argc, char** argv) {
+  for (int i = 1; i < argc && std::string_view(argv[i]) != "--"; ++i) {
+    if (!lacks_a_name(argv[i])) continue;
+    std::fprintf(stderr, "rgc: a value is missing in `%s`\nRun with --help for more information.\n", argv[i]);
+    return false;
+  }
+  return true;
 }
 
 int run_and_flush(const Run& run) {
@@ -349,7 +383,7 @@ int run_command_line(int argc, char** argv) {
   for (auto* add :
        {add_build, add_watch, add_check, add_fmt, add_verify, add_explain, add_report, add_stats, add_spectrum, add_graph, add_diff, add_emit})
     add(app, run);
-  if (argc > 1 && !names_a_command(app, argv[1])) return exit_call_wrong;
+  if (argc > 1 && (!names_a_command(app, argv[1]) || !names_values(argc, argv))) return exit_call_wrong;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -77,7 +77,7 @@ std::string used_by(const dsl::Graph& graph, const std::string& name) {
     for (const dsl::Access& access : pass.accesses)
       if (names(name, graph.resources[access.resource].name))
         text += fmt::format("  {} {} as {}{}\n", pass.name, mode_name(access.mode), role_name(access.role),
-                            access.age ? fmt::format(", {} frames ago", access.age) : "");
+                            access.age ? fmt::format(", {} ago", counted(access.age, "frame")) : "");
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -30,10 +31,21 @@ class NewFile {
   int number_;
 };
 
+// Owner and mode of the file that `number` takes the place of, as far as they can be had.
+void take_after(const fs::path& old, int number) {
+  struct stat before {
+  }, now{};
+  if (::lstat(old.c_str(), &before) != 0 || !S_ISREG(before.st_mode) || ::fstat(number, &now) != 0) return;
+  const bool same = before.st_uid == now.st_uid && before.st_gid == now.st_gid;
+  const bool own = same || ::fchown(number, before.st_uid, before.st_gid) == 0;
+  ::fchmod(number, before.st_mode & (own ? 07777 : 0777));
+}
+
 // errno of what failed, or 0.
-int write_new(const fs::path& path, const std::string& text) {
+int write_new(const fs::path& path, const std::string& text, const fs::path& old) {
   NewFile file(path);
   if (file.number() < 0) return errno;
+  take_after(old, file.number());
   for (size_t done = 0; done < text.size();) {
     const ssize_t got = ::write(file.number(), text.data() + done, text.size() - done);
     if (got < 0 && errno == EINTR) continue;
@@ -77,6 +89,28 @@ std::string reason(int error) {
   }
 }
 
+fs::path target_of(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  std::error_code error;
+  fs::path at = path;
+  for (int i = 0; i < kMostLinks; ++i) {
+    const fs::path next = fs::read_symlink(at, error);
+    if (error) return at;  // no link
+    at = next.is_absolute() ? next : at.parent_path() / next;
+  }
+  return path;
+}
+
+// The bits count for root too, whom nothing else would stop.
+std::string why_not_replaced(const fs::path& path) {
+  struct stat about {};
+  if (::stat(path.c_str(), &about) != 0) return errno == ENOENT ? "" : reason(errno);
+  if (S_ISDIR(about.st_mode)) return reason(EISDIR);
+  if (!S_ISREG(about.st_mode)) return "it is not a regular file";
+  if ((about.st_mode & (S_IWUSR | S_IWGRP | S_IWOTH)) == 0) return "it is read-only";
+  return ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) == 0 ? "" : reason(errno);
+}
+
 FileReplacements::~FileReplacements() {
   std::error_code ignored;
   for (const File& file : files_) {
@@ -96,18 +130,15 @@ int FileReplacements::make_folder(const fs::path& folder) {
 
 bool FileReplacements::prepare(const fs::path& path, const std::string& text, dsl::Diagnostics& diagnostics) {
   const fs::path temporary = beside(path, files_.size(), ".tmp");
-  std::error_code error;
-  int failed = make_folder(path.parent_path());
-  if (!failed && fs::is_directory(path, error)) failed = EISDIR;
-  if (error && error.value() != ENOENT) failed = error.value();
-  if (!failed) {
+  const auto why = [](int failed) { return failed == 0 ? "" : failed == ENOENT ? "its folder cannot be made" : reason(failed); };
+  std::string problem = why(make_folder(path.parent_path()));
+  if (problem.empty()) problem = why_not_replaced(path);
+  if (problem.empty()) {
     files_.push_back({path, temporary, {}, File::Before::nothing});
-    failed = write_new(temporary, text);
+    problem = why(write_new(temporary, text, path));
   }
-  if (failed)
-    diagnostics.report(DiagnosticKind::OutputNotWritable, {},
-                       {path.string(), failed == ENOENT ? "its folder cannot be made" : reason(failed), "nothing was changed"});
-  return !failed;
+  if (!problem.empty()) diagnostics.report(DiagnosticKind::OutputNotWritable, {}, {path.string(), problem, "nothing was changed"});
+  return problem.empty();
 }
 
 // Puts the first `done` files back and says how that went.

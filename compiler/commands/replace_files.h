@@ -11,6 +11,12 @@ namespace rg::commands {
 
 std::string reason(int error);  // errno in words: "no such file", "the disk is full"
 
+// The file that `path` leads to, symbolic links followed; nothing need be there. A link that leads back to itself stays as it is.
+std::filesystem::path target_of(const std::filesystem::path& path);
+
+// Why what is at `path` cannot be replaced: it is no regular file, or may not be written; empty: it can be, or nothing is there.
+std::string why_not_replaced(const std::filesystem::path& path);
+
 // prepare() writes beside each file's place, commit() renames. Until commit() gives true, every file is as it was; what could not be put back is
 // named in the report. Folders that were made for files that did not come go again.
 class FileReplacements {
@@ -20,7 +26,7 @@ class FileReplacements {
   FileReplacements& operator=(const FileReplacements&) = delete;
   ~FileReplacements();
 
-  // Each false after reporting.
+  // Each false after reporting. A link at `path` is replaced itself, see target_of().
   bool prepare(const std::filesystem::path& path, const std::string& text, dsl::Diagnostics& diagnostics);
   bool commit(dsl::Diagnostics& diagnostics);
 

@@ -6,6 +6,7 @@
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "compiler/commands/outputs.h"
 #include "compiler/commands/spectrum_page.h"
 
 namespace rg::commands {
@@ -123,7 +124,8 @@ int report_all(const SpectrumCommand& options, const compiler::CompileResult& re
     json["spectra"].push_back(json_of(facts));
   }
   if (options.json) print(json.dump(2) + "\n");
-  if (!options.html.empty()) write_file(options.html, spectrum_page(all), diagnostics);
+  if (!options.html.empty() && may_write({{"the page", options.html}}, {}, result.read_files, diagnostics))
+    write_file(options.html, spectrum_page(all), diagnostics);
   return finish(diagnostics, result.sources);
 }
 

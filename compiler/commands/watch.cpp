@@ -12,6 +12,7 @@
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "compiler/commands/outputs.h"
 #include "compiler/shaders/glslang_front_end.h"
 
 namespace rg::commands {
@@ -91,8 +92,11 @@ void say(const WatchOptions& options, const std::string& text) {
 
 bool write_results(const WatchOptions& options, const compiler::GeneratedFile& plans, const compiler::CompileResult& result,
                    dsl::Diagnostics& diagnostics) {
-  if (options.folder.empty() || !result.complete) return write_file(plans.path, plans.text, diagnostics);
-  return write_output(options.folder, result.files, diagnostics, {plans}).has_value();
+  const bool alone = options.folder.empty() || !result.complete;
+  const std::vector<Output> generated = alone ? std::vector<Output>() : outputs_in(options.folder, result.files);
+  if (!may_write({{"the plan file", plans.path}}, generated, result.read_files, diagnostics)) return false;
+  if (alone) return write_file(plans.path, plans.text, diagnostics);
+  return write_output(options.folder, result.files, diagnostics, {plans}, result.read_files).has_value();
 }
 
 struct Build {
@@ -143,6 +147,8 @@ int watch(const WatchOptions& options) {
     fmt::print(stderr, "watch: there is no file `{}`\n", options.file);
     return exit_input_wrong;
   }
+  dsl::Diagnostics diagnostics;
+  if (!may_write({{"the plan file", plan_file_of(options)}}, {}, {options.file}, diagnostics)) return finish(diagnostics, {});
   std::vector<compiler::SpectrumChoice> kernels;  // of the last build that chose them
   bool built = false;                             // something runs, so that somebody may wait for the next
   for (;;) {

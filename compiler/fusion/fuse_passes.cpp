@@ -60,8 +60,6 @@ class Blocks {
     check_used(pass, words);
   }
 
-  std::vector<std::string> read_files() const { return sources_.readable_paths(); }
-
  private:
   std::optional<std::string> text_of(const std::string& path, std::string& why) {
     const std::string* text = sources_.find(path);
@@ -306,7 +304,6 @@ FusionResult fuse_passes(dsl::Program program, const ReadFile& read, dsl::Source
     dsl::Graph graph = Fuser(program, dsl::GraphId{g}, options, blocks, result, diagnostics).run();
     program.graphs.rows[g] = std::move(graph);
   }
-  result.read_files = blocks.read_files();
   result.program = std::move(program);
   return result;
 }

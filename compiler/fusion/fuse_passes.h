@@ -48,7 +48,6 @@ struct FusionResult {
   dsl::Program program;  // without blocks
   std::vector<FusedKernel> kernels;
   std::vector<FusionRefusal> refusals;  // of fusions that `may` leave passes apart
-  std::vector<std::string> read_files;  // sources of blocks, relative to the root file's folder
 };
 // Reports blocks that cannot be read or do what no block may, and fusions that cannot be. `files` gets the sources that diagnostics point into.
 // O(passes + members^2 * accesses^2 of each fusion).

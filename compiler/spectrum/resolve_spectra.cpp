@@ -308,11 +308,4 @@ std::vector<KernelSets> kernel_sets(const std::vector<SpectrumChoice>& choices) 
   return sets;
 }
 
-std::vector<std::string> profile_paths(const dsl::Program& program) {
-  std::vector<std::string> paths;
-  for (const dsl::Spectrum& spectrum : program.spectra)
-    if (!spectrum.profile.empty()) paths.push_back(spectrum.profile);
-  return paths;
-}
-
 }  // namespace rg::compiler

@@ -45,7 +45,4 @@ std::vector<SpectrumChoice> resolve_spectra(const dsl::Program& program, const R
 
 std::vector<KernelSets> kernel_sets(const std::vector<SpectrumChoice>& choices);
 
-// Paths that were read, for a depfile.
-std::vector<std::string> profile_paths(const dsl::Program& program);
-
 }  // namespace rg::compiler

@@ -148,8 +148,8 @@ void begin_life(Comparison& c, Memory& memory) {
 void report_read(Comparison& c, uint32_t plan_pass, const Use& use, uint32_t cell, Version wanted, Version actual) {
   const std::string pass = c.model.pass_name(plan_pass);
   const std::string text = "`" + pass + "` reads " + c.model.place(use.resource, cell) +
-                           (use.age ? " of " + std::to_string(use.age) + " frames ago" : "") + ": it finds " + name_of(c, actual) +
-                           ", program order gives " + name_of(c, wanted);
+                           (use.age ? " of " + std::to_string(use.age) + (use.age == 1 ? " frame ago" : " frames ago") : "") + ": it finds " +
+                           name_of(c, actual) + ", program order gives " + name_of(c, wanted);
   c.report.add({actual == kPoison ? Hazard::poison_read : Hazard::wrong_version, c.model.resource(use.resource).name, "", pass, text});
 }
 
@@ -219,8 +219,8 @@ void compare_end(Comparison& c, const Memory& program, const Memory& plan) {
         const Hazard hazard = actual == kPoison ? Hazard::lost_contents : Hazard::wrong_version;
         c.report.add({hazard, resource.name, "", "",
                       "at the end of frame " + std::to_string(c.frame) + " " + c.model.place(r, cell) +
-                          (age ? " of " + std::to_string(age) + " frames ago" : "") + " holds " + name_of(c, actual) + ", program order gives " +
-                          name_of(c, wanted)});
+                          (age ? " of " + std::to_string(age) + (age == 1 ? " frame ago" : " frames ago") : "") + " holds " + name_of(c, actual) +
+                          ", program order gives " + name_of(c, wanted)});
       }
   }
 }

@@ -164,6 +164,91 @@ TEST(Messages, OnlyAHundredErrorsArePrinted) {
   EXPECT_NE(print_json(loaded.diagnostics, loaded.result.files).find("nothing129"), std::string::npos);
 }
 
+std::string first_message(const std::string& text) {
+  const golden::Loaded loaded = load_text(text);
+  return loaded.diagnostics.rows().empty() ? "" : loaded.diagnostics.rows()[0].message();
+}
+
+TEST(Messages, ANumberThatBeginsLikeASizeHasAnAxisOfZero) {
+  const std::string zero = "the axis 0 of `0x64` is not between 1 and 65536";
+  for (const char* items : {"image a : rgba8 0x64", "pass p : compute { dispatch over 0x64 }"}) {
+    const golden::Loaded loaded = load_text(in_graph(items));
+    ASSERT_EQ(codes(loaded), Codes{"RG0218"}) << items;
+    EXPECT_EQ(loaded.diagnostics.rows()[0].message(), zero);
+    EXPECT_EQ(first_fix(loaded), "");
+  }
+  EXPECT_EQ(codes(load_text("extent v = runtime(0x10, 0x20)\nextent w = runtime(0x10)\n")), Codes{});
+  EXPECT_EQ(first_fix(load_text(in_graph("pass p : compute { shader \"a.comp\" group 0x8, 8 }"))), "0x8 8");
+}
+
+TEST(Messages, OptionsThatStandTwice) {
+  const std::string before = "pass p : raster { color s ", after = " }";
+  for (const std::string option : {"covers", "disjoint", "readonly", "blend add(one, one)"}) {
+    const golden::Loaded loaded = load_text(in_graph(before + option + " " + option + after));
+    ASSERT_FALSE(loaded.diagnostics.rows().empty());
+    EXPECT_EQ(loaded.diagnostics.rows()[0].message(), "`" + option.substr(0, option.find(' ')) + "` is set twice");
+    EXPECT_EQ(first_note(loaded), "the first is here");
+  }
+  EXPECT_EQ(first_message(in_graph("pass p : raster { color s first }")), "`first` is no option here");
+  EXPECT_EQ(first_message("target vulkan 1.3\ntarget vulkan 1.4\n"), "`target vulkan` is set twice");
+}
+
+TEST(Messages, SayWhatIsMissing) {
+  EXPECT_EQ(first_message(in_graph("image a : rgba8 view layout foo")), "expected `general`, found `foo`");
+  EXPECT_EQ(first_message(in_graph("image a : rgba8 view no foo")), "expected `alias`, found `foo`");
+  EXPECT_EQ(first_message("const A = 1\nmodule late\n"), "expected a declaration; `module` stands first in a file, found `module`");
+}
+
+TEST(Messages, BoundsOfDepthOneByOne) {
+  EXPECT_EQ(codes(load_text("state a { depth bounds 2 0.5 }\n")), Codes{"RG0218"});
+  EXPECT_EQ(first_message("state a { depth bounds 2 0.5 }\n"), "2 is not between 0 and 1");
+  EXPECT_EQ(first_message("state a { depth bounds 0.5 0.25 }\n"), "0.25 is not between 0.5 and 1");
+}
+
+TEST(Messages, AVertexHoldsNoBool) {
+  const std::string graph =
+      "graph g(surface s: rgba8 64x64) { pass p : raster { color s clear 0  draw host { instance Vertex } } }\nstruct Vertex { at: vec3  inner: "
+      "Inner }\n";
+  const golden::Loaded loaded = load_text(graph + "struct Inner { lit: bool }\n");
+  ASSERT_EQ(codes(loaded), Codes{"RG0616"});
+  EXPECT_NE(loaded.diagnostics.rows()[0].message().find("`lit` of `Vertex`"), std::string::npos);
+  EXPECT_EQ(codes(load_text(graph + "struct Inner { lit: u32 }\n")), Codes{});
+}
+
+std::string printed(const std::string& text) {
+  const golden::Loaded loaded = load_text(text);
+  return print(loaded.diagnostics, loaded.result.files, false);
+}
+
+TEST(Messages, NothingDrivesTheTerminal) {
+  const std::string shown = printed("const A = B  // \x1b[31m red \xc2\x9b \xe2\x80\xae \xff\n");
+  EXPECT_NE(shown.find("const A = B  // ?[31m red ? ? ?\n"), std::string::npos) << shown;
+  Diagnostics diagnostics;
+  diagnostics.report(DiagnosticKind::FileNotReadable, {}, {"a\x1b[2Jb", "no such file"});
+  EXPECT_EQ(print(diagnostics, {}, false).find('\x1b'), std::string::npos);
+}
+
+TEST(Messages, TheCaretStandsUnderItsWord) {
+  SourceFiles files;
+  files.add(SourceFile("a.rg", "\x1b\xc3\xa9\t\xe2\x82\xac w\xc3\xb6rd \xff\n"));
+  Diagnostics diagnostics;
+  diagnostics.report(DiagnosticKind::UnknownDeclaration, {FileId{0}, 8, 13}, {"word"});
+  const std::string text = print(diagnostics, files, false);
+  EXPECT_NE(text.find("     1 | ?\xc3\xa9\t\xe2\x82\xac w\xc3\xb6rd ?\n       |   \t  ^~~~\n"), std::string::npos) << text;
+}
+
+TEST(Messages, SarifCountsCodePoints) {
+  SourceFiles files;
+  files.add(SourceFile("a.rg", "first\n\xc3\xa9\xe2\x82\xac\xf0\x9f\x98\x80 wrong\n"));
+  Diagnostics diagnostics;
+  diagnostics.report(DiagnosticKind::UnknownDeclaration, {FileId{0}, 16, 21}, {"wrong"});
+  const std::string sarif = print_sarif(diagnostics, files);
+  EXPECT_NE(sarif.find("\"columnKind\": \"unicodeCodePoints\""), std::string::npos);
+  EXPECT_NE(sarif.find("\"startColumn\": 5"), std::string::npos) << sarif;
+  EXPECT_NE(sarif.find("\"endColumn\": 10"), std::string::npos) << sarif;
+  EXPECT_NE(print_json(diagnostics, files).find("\"column\": 11"), std::string::npos);
+}
+
 TEST(Messages, OneMistakeIsToldOnce) {
   EXPECT_EQ(codes(load_text(in_graph("buffer b : u32[4] history 1 init clear 0 readback"))), Codes{"RG0328"});
   EXPECT_EQ(codes(load_text(in_graph("pass p : raster { read s as sampled in fragment  color s clear 0 }"))), Codes{"RG0356"});

@@ -1,0 +1,1 @@
+vec4 colour() { return vec4(1.0); }

@@ -1,0 +1,2 @@
+#include "colour.glsl"
+void main() { backbuffer = colour(); }
