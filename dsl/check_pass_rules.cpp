@@ -368,11 +368,11 @@ void check_conflicts(const Rules& rules, const std::vector<bool>& wrong) {
 }
 
 // How shaders come to see another name.
-std::string way_out(const Rules& rules, const Access* access) {
+std::string way_out(const Access* access) {
   if (!access) return "call the parameter block otherwise";
   constexpr const char* kVerbs[] = {"read", "write", "update", "atomic"};
   const char* verb = access->role == Role::color ? "color" : kVerbs[static_cast<size_t>(access->mode)];
-  return "rename it for the shaders: `" + std::string(verb) + " other = " + rules.resource(*access).name + " ...`";
+  return "rename it for the shaders: `" + std::string(verb) + " other = ...`";
 }
 
 void check_names(const Rules& rules) {
@@ -385,8 +385,7 @@ void check_names(const Rules& rules) {
   const auto claim = [&](const std::string& name, Taken by) {
     const auto [at, fresh] = seen.emplace(name, by);
     const Access* first = at->second.access;
-    if (fresh && has_shaders && reserved_in_glsl(name))
-      rules.checker.report(DiagnosticKind::ReservedName, by.span, {name, way_out(rules, by.access)});
+    if (fresh && has_shaders && reserved_in_glsl(name)) rules.checker.report(DiagnosticKind::ReservedName, by.span, {name, way_out(by.access)});
     if (fresh || (first && by.access && conflict(rules, *first, *by.access))) return;  // no name would mend a conflict
     rules.checker.report(DiagnosticKind::AccessNameTaken, by.span, {name}).note(DiagnosticKind::OtherAccess, at->second.span);
   };

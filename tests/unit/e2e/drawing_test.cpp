@@ -57,7 +57,7 @@ graph frame() {
 void expect_indexed(const std::string& element, uint32_t width, const std::string& counted) {
   const std::string bytes = "(0, " + std::to_string(8 * width) + ")";
   RUN(words, {{"frame.rg", R"(
-extent two = runtime(2) max(4)
+extent two = runtime(2) max(3)
 struct Vertex { x: f32 }
 struct Place { y: f32 }
 state points { cull none  topology points }
