@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/commands/apply_fixes.h"
 #include "compiler/commands/facts.h"
 
 namespace rg::commands {
@@ -19,6 +20,19 @@ TEST(Command, NearestIsTheOneMeantOrNone) {
   EXPECT_EQ(nearest("light_cul", names), "light_cull");
   EXPECT_EQ(nearest("shadow", names), std::nullopt);
   EXPECT_EQ(nearest("x", {}), std::nullopt);
+}
+
+TEST(Command, AFixThatChangesNothingIsNone) {
+  dsl::SourceFiles files;
+  files.add(dsl::SourceFile("a.rg", "one two\n"));
+  dsl::Diagnostics diagnostics;
+  const dsl::FileId file{size_t{0}};
+  diagnostics.report(dsl::Diagnostic(dsl::DiagnosticKind::AxesApart, {file, 0, 3}, {"one"}).fix({file, 0, 3}, "one"));
+  EXPECT_EQ(apply_fixes(diagnostics, files, file).count, 0u);
+  diagnostics.report(dsl::Diagnostic(dsl::DiagnosticKind::AxesApart, {file, 4, 7}, {"2"}).fix({file, 4, 7}, "2"));
+  const Fixed fixed = apply_fixes(diagnostics, files, file);
+  EXPECT_EQ(fixed.count, 1u);
+  EXPECT_EQ(fixed.text, "one 2\n");
 }
 
 TEST(Facts, NamesAreThoseOfVulkan) {
