@@ -24,7 +24,7 @@ graph g(surface s: rgba8 8x8) {
 //~^ note[RG0355]: compared with this one
   pass r8 : raster { color up clear 0  read down as input }  //~ error[RG0352]: `down` is 64x63, other attachments of the pass are 64x64
 //~^ note[RG0355]: compared with this one
-  pass r9 : raster { depth shade.depth clear 1  resolve shade -> mask }  //~ error[RG0490]: `resolve` cannot tell which aspects go where: `shade` gives depth, `mask` has depth and stencil; say `.depth` or `.stencil`
-  pass r10 : raster { depth shade.depth clear 1  resolve shade -> mask.depth }
+  pass r9 : raster { depth shade.depth clear 1  resolve shade -> mask }  //~ error[RG0492]: a rendering resolves colour or depth, not stencil, and `shade` is `d32f_s8`; say `resolve shade.depth -> mask.depth`
+  pass r10 : raster { depth shade.depth clear 1  resolve shade.depth -> mask.depth }
   pass r7 : raster { color s clear 0  read flat as input }
 }

@@ -45,7 +45,7 @@ TEST(Amounts, AnIndexedDrawStaysWithinItsIndices) {
   EXPECT_EQ(of_draw(read + "draw indexed view.x - 1 first 1", "buffer i : u32[view.x + 4]\npass f : transfer { fill i 0 }\n"), "");
   EXPECT_EQ(of_draw(read + "draw indexed view.x first 1", indices),
             "RG0495 pass `p` draws up to index 64 of `i`, which holds 64; make it longer or draw fewer\n");
-  EXPECT_EQ(of_draw("read i.bytes(0, 12) as index  draw indexed 4", indices),
+  EXPECT_EQ(of_draw("read i.bytes(0, 12) as index  draw indexed 4", "buffer i : u32[view.x + 4]\npass f : transfer { fill i 0 }\n"),
             "RG0495 pass `p` draws up to index 3 of `i`, which holds 3; make it longer or draw fewer\n");
 }
 

@@ -87,7 +87,7 @@ struct RandomFrames : testing::Test {
   void run(uint64_t first, uint64_t count, uint32_t passes, const compiler::PlanOptions& plan, const GraphOptions& options) {
     for (uint64_t seed = first; seed < first + count && !HasFailure(); ++seed) {
       RandomFrame frame = make_random_frame(seed, passes, kFrames);
-      if (split) frame.files["random.rg"].insert(0, "target vulkan 1.3 with split_barriers\n");
+      if (std::string& text = frame.files["random.rg"]; split) text.insert(text.find('\n') + 1, "target vulkan 1.3 with split_barriers\n");
       const compiler::CompileResult result = compile_frame(frame, plan, seed);
       if (HasFailure()) return;
       prove(result, seed);
