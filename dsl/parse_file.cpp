@@ -389,10 +389,7 @@ void complain_about_declaration(Parser& parser) {
 }
 
 void parse_module(Parser& parser, File& file) {
-  const bool again = !file.module.empty(), late = !again && parser.at > 0 && !parser.any_error;
-  if (again) parser.complain({DiagnosticKind::RepeatedModule, parser.here(), {}});
-  if (late) parser.unexpected("a declaration; `module` stands first in a file");
-  parser.silent = again;
+  if (!file.module.empty()) parser.complain({DiagnosticKind::RepeatedModule, parser.here(), {}});
   parser.take();
   const Name name = parser.expect_name("the name of the module");
   if (file.module.empty()) file.module = name;
