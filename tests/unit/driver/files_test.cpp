@@ -1,11 +1,11 @@
 #include "compiler/commands/files.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+
+#include "tests/unit/driver/in_folder.h"
 
 namespace rg::commands {
 namespace {
@@ -13,29 +13,14 @@ namespace {
 namespace fs = std::filesystem;
 using dsl::DiagnosticKind;
 
-class Files : public testing::Test {
+class Files : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("rgc_files_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void put(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
-  std::string get(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path(name)).rdbuf();
-    return text.str();
-  }
   std::string refusal(const std::string& name) const {
     std::string why;
     EXPECT_FALSE(read_file(path(name), why).has_value());
     return why;
   }
 
-  fs::path folder_;
   dsl::Diagnostics diagnostics_;
 };
 

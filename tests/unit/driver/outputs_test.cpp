@@ -3,14 +3,12 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "compiler/commands/command.h"
 #include "compiler/commands/files.h"
+#include "tests/unit/driver/in_folder.h"
 
 namespace rg::commands {
 namespace {
@@ -18,22 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using dsl::DiagnosticKind;
 
-class Outputs : public testing::Test {
+class Outputs : public InFolder {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("rgc_outputs_" + std::to_string(::getpid()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void put(const std::string& name, const std::string& text) const { std::ofstream(path(name)) << text; }
-  std::string get(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(path(name)).rdbuf();
-    return text.str();
-  }
   // The kind that is reported, if any.
   std::optional<DiagnosticKind> judge(const std::vector<Output>& named, const std::vector<compiler::GeneratedFile>& files = {}) const {
     dsl::Diagnostics diagnostics;
@@ -46,8 +30,6 @@ class Outputs : public testing::Test {
     EXPECT_EQ(::stat(path(name).c_str(), &about), 0);
     return about.st_mode & 07777;
   }
-
-  fs::path folder_;
 };
 
 TEST_F(Outputs, AreNoInputsUnderWhateverName) {

@@ -6,42 +6,10 @@
 
 #include "compiler/verify/verify.h"
 #include "runtime/graph.h"
-#include "tests/unit/e2e/run_frame.h"
+#include "tests/unit/e2e/split_frame.h"
 
 namespace rg::test {
 namespace {
-
-// Raster, compute and transfer; attachments, sampled and storage images, buffers, history, a read-back; one barrier with an event.
-const Files kDamaged = {
-    {"frame.rg", R"(
-target vulkan 1.3 with split_barriers
-state flat { cull none }
-graph frame() {
-  image base   : rgba8 8x8
-  image mask   : rgba8 8x8
-  image extra  : rgba8 8x8
-  buffer tones : u32[64]
-  buffer twins : u32[64]
-  image trail  : r32ui 8x8 history 1 init clear 7
-  image seen   : r32ui 8x8
-  pass first  : raster { shader "full.vert" "two.frag"  state flat  color base clear 0  color mask clear 0  draw 3 }
-  pass tone   : compute { shader "tone.comp" group 8 8 1  read mask as sampled  write tones as storage  dispatch over 8x8 }
-  pass more   : raster { shader "full.vert" "more.frag"  state flat  read mask as sampled in fragment  color extra clear 0  draw 3 }
-  pass twin   : transfer { copy tones -> twins }
-  pass light  : compute { shader "light.comp" group 8 8 1  read base as sampled  read twins as storage  read trail.prev(1) as sampled  write trail as storage  dispatch over 8x8 }
-  pass mix    : compute { shader "mix.comp" group 8 8 1  read trail as sampled  read extra as sampled  write seen as storage  dispatch over 8x8 })" +
-                     kShow},
-    {"full.vert", "void main() { gl_Position = vec4(gl_VertexIndex == 1 ? 3 : -1, gl_VertexIndex == 2 ? 3 : -1, 0.5, 1.0); }"},
-    {"two.frag", "void main() { base = vec4(0.25); mask = vec4(0.5); }"},
-    {"more.frag", "void main() { extra = texelFetch(mask, ivec2(gl_FragCoord.xy), 0); }"},
-    {"tone.comp", "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy); tones[8 * at.y + at.x] = uint(255.0 * texelFetch(mask, at, 0).y); }"},
-    {"light.comp",
-     "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
-     "  imageStore(trail, at, uvec4(texelFetch(trail_prev, at, 0).x + uint(texelFetch(base, at, 0).x) + twins[8 * at.y + at.x])); }"},
-    {"mix.comp",
-     "void main() { ivec2 at = ivec2(gl_GlobalInvocationID.xy);\n"
-     "  imageStore(seen, at, uvec4(texelFetch(trail, at, 0).x + uint(texelFetch(extra, at, 0).y))); }"},
-    {"show.comp", kShowShader}};
 
 // Calls `visit(what)` with each bit of each mask of each barrier left out, and with a stage more to wait for, then puts them back.
 template <class Row, class Visit>
@@ -106,7 +74,7 @@ TEST_F(Mutants, AreSeenByValidationAsByTheChecker) {
   if (!device) GTEST_SKIP() << "no device";
   compiler::PlanOptions in_order;
   in_order.reorder = false;
-  const compiler::CompileResult result = compile_files(kDamaged, in_order);
+  const compiler::CompileResult result = compile_files(kSplitFrame, in_order);
   ASSERT_FALSE(result.graphs.empty());
   PlanData plan = result.graphs[0].plans[0].plan;
   ASSERT_EQ(run(plan.view()), "");
